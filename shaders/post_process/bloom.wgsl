@@ -26,10 +26,7 @@ fn down(in: Screen) -> @location(0) vec4<f32> {
     return clamp(mean, vec4<f32>(0.0), vec4<f32>(6e4));
 }
 
-/// What a level and all coarser ones have of the glow, beside the next finer one: a halo that falls off, so that what is dark stays dark.
-const WIDER: f32 = 0.5;
-
-/// The coarser level, smoothed; blending mixes it with the finer one by its alpha. At the end the finest, smoothed as well.
+/// The coarser level, smoothed; blending mixes it with the finer one. At the end the finest, smoothed as well.
 @fragment
 fn up(in: Screen) -> @location(0) vec4<f32> {
     let d = 0.5 / vec2<f32>(textureDimensions(source));
@@ -37,5 +34,5 @@ fn up(in: Screen) -> @location(0) vec4<f32> {
         + textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(1.0, -1.0), 0.0)
         + textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(-1.0, 1.0), 0.0)
         + textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(1.0, 1.0), 0.0);
-    return vec4<f32>(0.25 * sum.rgb, WIDER);
+    return vec4<f32>(0.25 * sum.rgb, 1.0);
 }

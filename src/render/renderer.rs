@@ -27,9 +27,9 @@ use crate::render::method::Method;
 use crate::render::method::tables::Tables;
 use crate::render::models::{ModelRange, ModelSet, Models};
 use crate::render::passes::{Recording, Shown, begin_thin, colour, depth};
-use crate::render::post_process::PostProcess;
 use crate::render::post_process::coverage::covered;
 use crate::render::post_process::upscale::{Upscale, drawn_size};
+use crate::render::post_process::{Finish, PostProcess};
 use crate::render::sky::table::{NODES, sky_table, straight_sky_table};
 use crate::render::sky::{Background, Stars};
 
@@ -89,10 +89,8 @@ pub struct Renderer {
     output: ([u32; 2], f32),
     /// The output has no size.
     hidden: bool,
-    /// The frame has bodies whose outlines are to be smooth.
-    smooth: bool,
-    /// The rise of the frame's mean brightness is bound.
-    steady: bool,
+    /// How the frame is finished; outlines are smooth where it has bodies.
+    finish: Finish,
     before: Before,
     timing: Timing,
     /// Whether counters are brought back after each frame.
@@ -162,8 +160,7 @@ impl Renderer {
             output: (targets.size, 1.0),
             targets,
             hidden: size.contains(&0),
-            smooth: false,
-            steady: false,
+            finish: Finish { blooms: true, smooth: false, steady: false, resolution: 1.0 },
             before: Before::Black,
             counting: false,
             counted: Default::default(),
@@ -323,7 +320,7 @@ impl Renderer {
             uniform.sky_x[3] = disk.disk().config.exposure_key as f32;
             uniform.disk = [1; 4];
         }
-        self.steady = input.settings.rise.is_finite();
+        self.finish.steady = input.settings.rise.is_finite();
         match self.before {
             Before::Black => {}
             // Nobody sees a jump here: it is the picture that was shown without a bound.
@@ -337,7 +334,9 @@ impl Renderer {
         let begin = self.timing.worked("lists of stars", begin);
         self.background.prepare(&self.gpu, self.targets.size);
         self.aurora.prepare(&self.gpu, input.aurora.as_ref(), &self.targets);
-        self.smooth = input.settings.smooth && !input.placed.is_empty();
+        self.finish.smooth = input.settings.smooth && !input.placed.is_empty();
+        self.finish.blooms = input.settings.bloom > 0.0;
+        self.finish.resolution = input.settings.resolution;
         self.timing.worked("rest of the uploads", begin);
         true
     }
@@ -375,9 +374,9 @@ impl Renderer {
         shown.lay_over(&mut recording, |recording| self.post_process.compose(recording, &self.thin));
         shown.draw_aurora(&mut recording, false);
         let drawn = self.upscale.drawn().unwrap_or(output);
-        self.post_process.run(&mut recording, &self.adaptation, self.smooth, self.steady, drawn);
+        self.post_process.run(&mut recording, &self.adaptation, self.finish, drawn);
         self.upscale.run(&mut recording, output);
-        self.before = if self.steady { Before::Measured } else { Before::Unmeasured };
+        self.before = if self.finish.steady { Before::Measured } else { Before::Unmeasured };
         if self.counting {
             self.counted[0].record(&self.gpu.device, encoder, self.geometry.counters());
             if let Some(disk) = disk {

@@ -23,7 +23,7 @@ use crate::render::frame::FrameInput;
 use crate::render::gpu::types::placed::OWN;
 use crate::render::instances::{DrawnObject, Motion, Placed, View, instances_of};
 use crate::render::method::Method;
-use crate::render::models::coarse::coarse;
+use crate::render::models::coarse::stand_ins;
 use crate::render::models::{ModelRange, ModelSet};
 use crate::render::post_process::upscale::drawn_size;
 use crate::render::quality::prices::SceneClass;
@@ -49,7 +49,10 @@ pub struct Stage {
     animation: Arc<Mutex<Option<AuroraAnimation>>>,
 }
 
-/// A model; its stand-in for images a few pixels wide; its stand-ins for wider images, each up to a width in pixels, the coarsest first.
+/// How far a stand-in may move a vertex where half a pixel is allowed, in pixels: chords have the rest.
+const MOST_MOVED: f64 = 0.25;
+
+/// A model, its coarsest stand-in, and all of them, the coarsest first, each up to a width in pixels where half a pixel is allowed.
 #[derive(Clone, Debug)]
 struct LevelsOfDetail {
     model: ModelRange,
@@ -86,18 +89,23 @@ impl Stage {
             Some(mark) => models.add(&mark(model)),
             None => models.add(model),
         };
-        let mut ranges: Vec<LevelsOfDetail> = Vec::new();
-        for model in &assembly.models {
-            let fine = add(model);
-            let coarse = coarse(model).map_or(fine, |model| add(&model));
-            ranges.push(LevelsOfDetail { model: fine, coarse, stand_ins: Vec::new() });
-        }
-        // A smaller globe needs fewer triangles.
-        let globes = assembly.objects.iter().filter(|object| object.body == Body::Planet);
-        for (number, globe) in globes.zip(&scene.planet).map(|(object, planet)| (object.model, planet)) {
-            let stand_ins = globe.stand_ins(&assembly.models[number]);
-            ranges[number].stand_ins.extend(stand_ins.iter().map(|(below, model)| (*below, add(model))));
-        }
+        // A smaller globe needs fewer triangles, but stays round.
+        let globe =
+            assembly.objects.iter().find(|object| object.body == Body::Planet).map(|object| object.model).zip(scene.planet.as_ref());
+        let ranges: Vec<LevelsOfDetail> = assembly
+            .models
+            .iter()
+            .enumerate()
+            .map(|(number, model)| {
+                let stand_ins = match globe {
+                    Some((of, planet)) if of == number => planet.stand_ins(model),
+                    _ => stand_ins(model).into_iter().map(|coarser| (MOST_MOVED / coarser.moved, coarser.model)).collect(),
+                };
+                let fine = add(model);
+                let stand_ins: Vec<_> = stand_ins.iter().map(|(below, model)| (*below, add(model))).collect();
+                LevelsOfDetail { model: fine, coarse: stand_ins.first().map_or(fine, |(_, coarsest)| *coarsest), stand_ins }
+            })
+            .collect();
         let radii: Vec<f64> = assembly.models.iter().map(|model| f64::from(model.radius())).collect();
         let reaches = assembly.objects.iter().map(|object| radii[object.model] * object.scale).collect();
         let objects = assembly.objects.into_iter().map(|object| {

@@ -49,7 +49,7 @@ pub struct DrawnObject<'a> {
     pub model: ModelRange,
     /// Coarse model for images a few pixels wide.
     pub coarse: ModelRange,
-    /// Coarse models for wider images: each up to a width in pixels, the coarsest first.
+    /// Coarse models, the coarsest first: each for images up to a width in pixels where half a pixel is allowed, and in proportion.
     pub stand_ins: &'a [(f64, ModelRange)],
     /// How it moves.
     pub motion: Motion<'a>,
@@ -66,7 +66,9 @@ pub struct DrawnObject<'a> {
 impl DrawnObject<'_> {
     /// What is drawn of it in an image `width` pixels wide: the first that may stand for it in one so narrow, or itself.
     fn model_for(&self, width: f64, settings: &Settings) -> ModelRange {
-        let models = [(settings.coarse_below, self.coarse)].into_iter().chain(self.stand_ins.iter().copied());
+        let allowed = f64::from(settings.pixel_error) / 0.5;
+        let stand_ins = self.stand_ins.iter().map(|(below, model)| (allowed * below, *model));
+        let models = [(settings.coarse_below, self.coarse)].into_iter().chain(stand_ins);
         models.into_iter().find(|(below, _)| width < *below).map_or(self.model, |(_, model)| model)
     }
 }

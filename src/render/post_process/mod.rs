@@ -54,6 +54,31 @@ struct Groups {
     smooth: wgpu::BindGroup,
 }
 
+/// How a picture is finished.
+#[derive(Clone, Copy, Debug)]
+pub struct Finish {
+    /// Light is spread by the lens.
+    pub blooms: bool,
+    /// Outlines of bodies are smoothed.
+    pub smooth: bool,
+    /// The rise of the mean brightness is bound.
+    pub steady: bool,
+    /// Width of the picture as a share of what it will be enlarged to: the glow keeps its width there.
+    pub resolution: f32,
+}
+
+/// What a level of the bloom and all coarser ones have of the glow, beside the next finer one: a halo that falls off, so that what is dark
+/// stays dark.
+const WIDER: f32 = 0.5;
+
+/// The coarsest of `levels` levels that glows in a picture of this resolution, and what all but the finest have of the glow. A level of a
+/// picture that is drawn smaller is as wide as a coarser one of the full picture: the finest stands for those that are finer, too.
+fn glow_levels(levels: usize, resolution: f32) -> (usize, f32) {
+    let octaves = -resolution.clamp(1e-3, 1.0).log2();
+    let last = levels.saturating_sub(1);
+    (last.saturating_sub(octaves as usize).max(1).min(last), WIDER.powf(1.0 + octaves))
+}
+
 impl PostProcess {
     /// Compiles the passes for an output of this format, which is to encode sRGB by itself.
     pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, output: wgpu::TextureFormat) -> Self {
@@ -68,7 +93,10 @@ impl PostProcess {
             raster(device, label, &shader, stage, &[Some(frame_layout), None, Some(layout)])
         };
         let over = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
-        let mixed = wgpu::BlendState::ALPHA_BLENDING;
+        // By the constant that the pass is given.
+        let (new, old, add) = (wgpu::BlendFactor::Constant, wgpu::BlendFactor::OneMinusConstant, wgpu::BlendOperation::Add);
+        let mix = wgpu::BlendComponent { src_factor: new, dst_factor: old, operation: add };
+        let mixed = wgpu::BlendState { color: mix, alpha: mix };
         let slots = [Slot::Texture, Slot::Sampler, Slot::Depth, Slot::Read];
         let smooth_layout = layout(device, "smooth", ShaderStages::VERTEX_FRAGMENT, &slots);
         let outlines_layout = layout(device, "outlines", ShaderStages::COMPUTE, &[Slot::Depth, Slot::Write]);
@@ -155,9 +183,8 @@ impl PostProcess {
         thin.draw_tiles(&mut begin(recording, ["compose"; 2], &over, &self.compose, &groups.thin));
     }
 
-    /// Bloom, exposure, and the picture into `output`, with smooth outlines of bodies if they are asked for. `adaptation` is what the
-    /// frame's exposure is kept in. `steady`: the rise of its mean brightness is bound. `output` can be copied from.
-    pub fn run(&self, recording: &mut Recording, adaptation: &wgpu::Buffer, smooth: bool, steady: bool, output: &wgpu::TextureView) {
+    /// Bloom, exposure, and the picture into `output`. `adaptation` is what the frame's exposure is kept in. `output` can be copied from.
+    pub fn run(&self, recording: &mut Recording, adaptation: &wgpu::Buffer, finish: Finish, output: &wgpu::TextureView) {
         let Some(groups) = &self.groups else { return };
         let targets = recording.targets;
         for (view, level) in targets.bloom.iter().zip(&groups.sampled) {
@@ -172,22 +199,34 @@ impl PostProcess {
             pass.dispatch_workgroups(1, 1, 1);
         }
         recording.encoder.copy_buffer_to_buffer(adaptation, 0, &self.adapted, 0, 16);
-        for level in (1..targets.bloom.len()).rev() {
+        if finish.blooms {
+            self.mix_levels(recording, groups, finish.resolution);
+        }
+        if finish.steady {
+            self.flashes.run(recording, &self.adapted);
+        }
+        begin(recording, ["tone map"; 2], &[Some(colour(output, true))], &self.tone_map, &groups.tone_map).draw(0..3, 0..1);
+        if finish.smooth {
+            self.smooth(recording, groups, output);
+        }
+    }
+
+    /// Mixes the levels of the bloom into the finest.
+    fn mix_levels(&self, recording: &mut Recording, groups: &Groups, resolution: f32) {
+        let targets = recording.targets;
+        let (coarsest, first) = glow_levels(targets.bloom.len(), resolution);
+        for level in (1..coarsest + 1).rev() {
             let (from, to) = (&groups.sampled[level + 1], &[Some(colour(&targets.bloom[level - 1], false))]);
-            begin(recording, ["bloom", "bloom up"], to, &self.up, from).draw(0..3, 0..1);
+            let mut pass = begin(recording, ["bloom", "bloom up"], to, &self.up, from);
+            let share = f64::from(if level == 1 { first } else { WIDER });
+            pass.set_blend_constant(wgpu::Color { r: share, g: share, b: share, a: share });
+            pass.draw(0..3, 0..1);
         }
         // Down the levels and up again.
         let last = targets.bloom.len() + 1;
         for (from, to) in [(1, &targets.glow), (last, &targets.bloom[0])] {
             let (from, to) = (&groups.sampled[from], &[Some(colour(to, true))]);
             begin(recording, ["bloom", "bloom soften"], to, &self.soften, from).draw(0..3, 0..1);
-        }
-        if steady {
-            self.flashes.run(recording, &self.adapted);
-        }
-        begin(recording, ["tone map"; 2], &[Some(colour(output, true))], &self.tone_map, &groups.tone_map).draw(0..3, 0..1);
-        if smooth {
-            self.smooth(recording, groups, output);
         }
     }
 
@@ -253,4 +292,38 @@ fn begin<'r>(
     pass.set_bind_group(0, recording.frame, &[]);
     pass.set_bind_group(2, group, &[]);
     pass
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What each level has of the glow.
+    fn shares(levels: usize, resolution: f32) -> Vec<f32> {
+        let (coarsest, first) = glow_levels(levels, resolution);
+        let mut left = 1.0;
+        let mut shares = Vec::new();
+        for level in 0..=coarsest {
+            let coarser = if level == coarsest {
+                0.0
+            } else if level == 0 {
+                first
+            } else {
+                WIDER
+            };
+            shares.push(left * (1.0 - coarser));
+            left *= coarser;
+        }
+        shares
+    }
+
+    #[test]
+    fn at_half_the_resolution_the_finest_level_glows_for_two() {
+        let (full, half) = (shares(5, 1.0), shares(5, 0.5));
+        assert_eq!(full, [0.5, 0.25, 0.125, 0.0625, 0.0625]);
+        assert_eq!(half, [full[0] + full[1], full[2], full[3], full[4]]);
+        assert_eq!(shares(5, 0.25), [0.875, 0.0625, 0.0625]);
+        assert_eq!(shares(1, 0.25), [1.0]);
+        assert!((shares(3, 0.7).iter().sum::<f32>() - 1.0).abs() < 1e-6);
+    }
 }

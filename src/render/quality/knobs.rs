@@ -7,31 +7,36 @@ use crate::render::settings::Settings;
 pub enum Knob {
     /// Pixels that are drawn.
     Resolution,
-    /// Allowed error of tessellated points.
+    /// Allowed error of points.
     PixelError,
-    /// Width from which images of order 2 and 3 are drawn.
+    /// Width from which images of bodies of order 2 and 3 are drawn, and whether the disk has them.
     SecondImages,
     /// Stars, down to which light.
     Stars,
     /// Smooth outlines.
     Outlines,
+    /// Light spread by the lens.
+    Bloom,
 }
 
 /// The step of each knob, in the order of [`Knob::ALL`].
 pub type Steps = [u8; Knob::ALL.len()];
 
 /// Share of the width and height that is drawn.
-const RESOLUTIONS: [f32; 7] = [1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.33];
+const RESOLUTIONS: [f32; 8] = [1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.33, 0.25];
+/// Standard deviation of the narrowest spots of stars, in drawn pixels: as they move their light, sampled at pixel centres, changes by up to
+/// 4 % (twice its transform at the sampling frequency, e^{−2π²·0.45²}).
+const LEAST_SIGMA: f32 = 0.45;
 /// Factors on the allowed error of a point.
 const PIXEL_ERRORS: [f32; 4] = [1.0, 2.0, 4.0, 8.0];
-/// Width in drawn pixels from which images of order 2 and 3 are drawn, but no less than configured; the last draws none.
+/// Width in drawn pixels from which images of bodies of order 2 and 3 are drawn, but no less than configured.
 const LEAST_WIDTHS: [f64; 4] = [0.0, 0.5, 2.0, f64::INFINITY];
 /// Faintest magnitudes, but none fainter than configured.
 const MAGNITUDES: [f32; 4] = [f32::INFINITY, 8.5, 7.5, 6.5];
 
 impl Knob {
     /// All of them.
-    pub const ALL: [Knob; 5] = [Knob::Resolution, Knob::PixelError, Knob::SecondImages, Knob::Stars, Knob::Outlines];
+    pub const ALL: [Knob; 6] = [Knob::Resolution, Knob::PixelError, Knob::SecondImages, Knob::Stars, Knob::Outlines, Knob::Bloom];
 
     /// Its name in tables.
     pub fn name(self) -> &'static str {
@@ -41,6 +46,7 @@ impl Knob {
             Knob::SecondImages => "second images",
             Knob::Stars => "stars",
             Knob::Outlines => "outlines",
+            Knob::Bloom => "bloom",
         }
     }
 
@@ -49,9 +55,9 @@ impl Knob {
         match self {
             Knob::Resolution => RESOLUTIONS.len() as u8,
             Knob::PixelError => PIXEL_ERRORS.len() as u8,
-            Knob::SecondImages => LEAST_WIDTHS.len() as u8,
+            Knob::SecondImages => LEAST_WIDTHS.len() as u8 + 1,
             Knob::Stars => MAGNITUDES.len() as u8,
-            Knob::Outlines => 2,
+            Knob::Outlines | Knob::Bloom => 2,
         }
     }
 
@@ -64,23 +70,46 @@ impl Knob {
         match self {
             Knob::Resolution => format!("{:.0} % of the width", 100.0 * RESOLUTIONS[k]),
             Knob::PixelError => format!("{} times the error", PIXEL_ERRORS[k]),
-            Knob::SecondImages if LEAST_WIDTHS[k].is_finite() => format!("from {} px on", LEAST_WIDTHS[k]),
-            Knob::SecondImages => "none".into(),
+            Knob::SecondImages => match LEAST_WIDTHS.get(k) {
+                Some(width) if width.is_finite() => format!("from {width} px on"),
+                Some(_) => "of the disk alone".into(),
+                None => "none".into(),
+            },
             Knob::Stars => format!("to magnitude {}", MAGNITUDES[k]),
             Knob::Outlines => "not smoothed".into(),
+            Knob::Bloom => "none".into(),
         }
+    }
+
+    /// Whether what it saves is done pixel by pixel.
+    pub fn is_by_pixel(self) -> bool {
+        matches!(self, Knob::Outlines | Knob::Bloom)
+    }
+
+    /// The share of the pixels that are drawn.
+    pub fn area(steps: Steps) -> f64 {
+        let place = Knob::ALL.iter().position(|knob| *knob == Knob::Resolution).unwrap_or(0);
+        f64::from(RESOLUTIONS[usize::from(steps[place]).min(RESOLUTIONS.len() - 1)]).powi(2)
     }
 
     /// Sets it. A step beyond the last is the last.
     pub fn set(self, step: u8, settings: &mut Settings) {
         let k = usize::from(step.min(self.steps() - 1));
         match self {
-            Knob::Resolution => settings.resolution *= RESOLUTIONS[k],
+            Knob::Resolution => {
+                settings.resolution *= RESOLUTIONS[k];
+                // Spots of stars stay as wide in the output, as far as they can be sampled.
+                settings.star_sigma = (settings.star_sigma * RESOLUTIONS[k]).max(LEAST_SIGMA.min(settings.star_sigma));
+            }
             Knob::PixelError => settings.pixel_error *= PIXEL_ERRORS[k],
-            Knob::SecondImages if LEAST_WIDTHS[k].is_finite() => settings.least_width = settings.least_width.max(LEAST_WIDTHS[k]),
-            Knob::SecondImages => settings.orders = 1,
+            Knob::SecondImages => match LEAST_WIDTHS.get(k) {
+                Some(width) => settings.least_width = settings.least_width.max(*width),
+                None => settings.orders = 1,
+            },
             Knob::Stars => settings.faintest_star = settings.faintest_star.max(10f32.powf(-0.4 * MAGNITUDES[k])),
             Knob::Outlines => settings.smooth &= k == 0,
+            Knob::Bloom if k > 0 => settings.bloom = 0.0,
+            Knob::Bloom => {}
         }
     }
 }
@@ -115,7 +144,7 @@ mod tests {
     #[test]
     fn what_is_configured_coarser_stays_so() {
         let coarse = Settings { smooth: false, orders: 1, faintest_star: 1.0, ..Settings::finest() };
-        let turned = turned(&coarse, &[0, 0, 3, 3, 1]);
+        let turned = turned(&coarse, &[0, 0, 3, 3, 1, 1]);
         assert_eq!((turned.smooth, turned.orders, turned.faintest_star), (false, 1, 1.0));
     }
 }
