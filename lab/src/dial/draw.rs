@@ -55,13 +55,13 @@ pub fn draw(prices: &Prices, checked: &Sheet, output: &Output) -> Result<[PathBu
     Ok(figure.save(&output.folder, "dial")?)
 }
 
-/// Draws `dial-levels.svg` and `dial-levels.png`: the front of each class, from everything at its finest down.
+/// Draws `dial-levels.svg` and `dial-levels.png`: the front of each scene, from everything at its finest down.
 pub fn draw_levels(measured: &Sheet, output: &Output) -> Result<[PathBuf; 2], DialError> {
-    let fronts = SceneClass::ALL.map(|class| Line {
-        name: class.name().to_owned(),
+    let fronts = levels::SCENES.map(|scene| Line {
+        name: scene.to_owned(),
         points: levels::LEVELS
             .iter()
-            .filter_map(|level| levels::level_of(measured, class, level))
+            .filter_map(|level| levels::level_of(measured, scene, level))
             .map(|[error, time]| [100.0 * time, error.max(1e-4)])
             .collect(),
         dots: true,

@@ -3,10 +3,11 @@
 use lensrunner::play::picture::quality::{LOW, MEDIUM};
 use lensrunner::render::quality::knobs::turned;
 use lensrunner::render::quality::ladder::{Rung, ladder, within};
-use lensrunner::render::quality::prices::{Prices, SceneClass};
+use lensrunner::render::quality::prices::Prices;
 use lensrunner::render::settings::Settings;
+use lensrunner::scene;
 
-use super::moments::{Bench, Case};
+use super::moments::{Bench, Case, class_of};
 use super::{DialError, DialRequest};
 use crate::chart::{Provenance, Sheet, SheetError};
 
@@ -16,9 +17,11 @@ pub const COLUMNS: [&str; 8] = ["class", "scene", "T", "level", "rung", "FLIP", 
 /// The levels, from the finest.
 pub const LEVELS: [&str; 4] = ["high", "medium", "low", "fastest"];
 
-/// A scene of each class.
-const SCENES: [(SceneClass, &str); 4] =
-    [(SceneClass::Bodies, "ring"), (SceneClass::Disk, "disk"), (SceneClass::Chase, "chase"), (SceneClass::Aurora, "aurora-orbit")];
+/// A scene of each class; the last is the scripted chase.
+pub const SCENES: [&str; 4] = ["ring", "disk", "02-first-pursuit", CHASE];
+
+/// The scripted chase.
+const CHASE: &str = "chase";
 
 /// T between two moments, in r_s/c.
 const STEP: f64 = 6.0;
@@ -48,7 +51,8 @@ pub fn measure(
     let mut sheet = Sheet::new(&COLUMNS);
     sheet.notes = Provenance::now(bench.adapter()).notes();
     for number in 0..request.moments {
-        for (class, scene) in SCENES {
+        for scene in SCENES {
+            let class = class_of(&scene::load(scene)?);
             let rungs = ladder(Prices::shipped(), class);
             let case = Case { scene: scene.to_owned(), at: number as f64 * STEP, seed: request.seed, turn: [0.0; 2] };
             said(format!("{}/{}: {scene} at T = {}", number + 1, request.moments, case.at));
@@ -77,9 +81,9 @@ pub fn measure(
     Ok(sheet)
 }
 
-/// Mean FLIP of a level and its share of the time of everything, over all moments of a class.
-pub fn level_of(sheet: &Sheet, class: SceneClass, level: &str) -> Option<[f64; 2]> {
-    let is_it = |row: &&Vec<String>| sheet.text(row, "class") == class.name() && sheet.text(row, "level") == level;
+/// Mean FLIP of a level and its share of the time of everything, over all moments of a scene.
+pub fn level_of(sheet: &Sheet, scene: &str, level: &str) -> Option<[f64; 2]> {
+    let is_it = |row: &&Vec<String>| sheet.text(row, "scene") == scene && sheet.text(row, "level") == level;
     let rows: Vec<_> = sheet.rows.iter().filter(is_it).collect();
     let sum = |column| rows.iter().map(|row| sheet.number(row, column)).sum::<f64>();
     (!rows.is_empty()).then(|| [sum("FLIP") / rows.len() as f64, sum("ms") / sum("everything, ms")])
@@ -88,7 +92,7 @@ pub fn level_of(sheet: &Sheet, class: SceneClass, level: &str) -> Option<[f64; 2
 /// The verdict, in a sentence.
 pub fn verdict(sheet: &Sheet) -> String {
     let words = LEVELS.iter().filter_map(|level| {
-        let [error, time] = level_of(sheet, SceneClass::Chase, level)?;
+        let [error, time] = level_of(sheet, CHASE, level)?;
         Some(format!("{level} takes {:.0} % at FLIP {error:.3}", 100.0 * time))
     });
     format!("Of the chase with everything at its finest {}.", words.collect::<Vec<_>>().join(", "))
@@ -103,10 +107,10 @@ mod tests {
         let mut sheet = Sheet::new(&COLUMNS);
         for (flip, ms, all) in [(0.01, 10.0, 40.0), (0.03, 30.0, 60.0)] {
             let numbers = [flip, ms, all].map(|number: f64| number.to_string());
-            sheet.push(["chase", "chase", "0", "low", "9"].map(str::to_owned).into_iter().chain(numbers));
+            sheet.push(["aurora", CHASE, "0", "low", "9"].map(str::to_owned).into_iter().chain(numbers));
         }
-        assert_eq!(level_of(&sheet, SceneClass::Chase, "low"), Some([0.02, 0.4]));
-        assert_eq!(level_of(&sheet, SceneClass::Disk, "low"), None);
+        assert_eq!(level_of(&sheet, CHASE, "low"), Some([0.02, 0.4]));
+        assert_eq!(level_of(&sheet, "disk", "low"), None);
         assert_eq!(verdict(&sheet), "Of the chase with everything at its finest low takes 40 % at FLIP 0.020.");
     }
 

@@ -18,6 +18,7 @@ use thiserror::Error;
 use crate::chart::{Output, Provenance, Sheet, SheetError};
 use crate::dial::DialError;
 use lensrunner::render::{DeviceError, Gpu};
+use lensrunner::scene::SceneError;
 use rates::{Rates, rates};
 
 /// The scene that is played.
@@ -67,6 +68,9 @@ pub enum WindowError {
     /// No pictures.
     #[error(transparent)]
     Dial(#[from] DialError),
+    /// The scene cannot be read.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
     /// A file cannot be written.
     #[error("cannot write {0}: {1}")]
     Write(PathBuf, String),

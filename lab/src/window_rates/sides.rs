@@ -5,17 +5,18 @@ use std::path::{Path, PathBuf};
 
 use lensrunner::render::quality::knobs::turned;
 use lensrunner::render::quality::ladder::ladder;
-use lensrunner::render::quality::prices::{Prices, SceneClass};
+use lensrunner::render::quality::prices::Prices;
+use lensrunner::scene;
 
 use super::{SCENE, WindowError};
-use crate::dial::moments::{Bench, Case};
+use crate::dial::moments::{Bench, Case, class_of};
 
 /// Moments, T in r_s/c.
 const MOMENTS: [f64; 3] = [2.0, 12.0, 24.0];
 
 /// Writes `window-WIDTHxHEIGHT.png`: left the finest, right the rung (a number from 1), and says their FLIP.
 pub fn draw(rung: usize, size: [u32; 2], seed: u64, folder: &Path, out: &mut impl Write) -> Result<PathBuf, WindowError> {
-    let rungs = ladder(Prices::shipped(), SceneClass::Chase);
+    let rungs = ladder(Prices::shipped(), class_of(&scene::load(SCENE)?));
     let rung = &rungs[rung.clamp(1, rungs.len()) - 1];
     let mut bench = Bench::new(size)?;
     let [width, height] = size;
