@@ -140,6 +140,18 @@ impl<W: io::Write> io::Write for Named<W> {
     }
 }
 
+/// A sentence about what somebody wrote, without the middle of what is longer than any that the program has to say by itself.
+pub fn brief(message: &str) -> String {
+    const LONGEST: usize = 1500;
+    const END: usize = 600;
+    if message.len() <= LONGEST {
+        return message.to_owned();
+    }
+    let head = message.char_indices().nth(SAID).map_or(message, |(end, _)| &message[..end]);
+    let tail = message.char_indices().rev().nth(END - 1).map_or("", |(start, _)| &message[start..]);
+    format!("{head}… ({} bytes) …{tail}", message.len())
+}
+
 /// A text as it is said in an error: its first characters if it is long.
 pub fn short(text: &str) -> String {
     match text.char_indices().nth(SAID) {
@@ -198,5 +210,7 @@ mod tests {
     fn long_texts_are_cut() {
         assert_eq!(short("β"), "β");
         assert_eq!(short(&"β".repeat(1000)), format!("{}… (2000 bytes)", "β".repeat(80)));
+        let said = brief(&format!("k = {:?} is not known, allowed 1 to 3", "β".repeat(1_000_000)));
+        assert!(said.starts_with("k = \"ββ") && said.ends_with("β\" is not known, allowed 1 to 3") && said.len() < 2000, "{said}");
     }
 }
