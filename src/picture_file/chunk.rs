@@ -212,7 +212,7 @@ mod tests {
         let mut long = good.clone();
         long[HEAD] = 0x7f;
         let huge = packed(&vec![b'a'; 100 << 20]);
-        let cases: [(&str, Vec<u8>, &str); 12] = [
+        let cases: [(&str, Vec<u8>, &str); 13] = [
             ("a plain PNG", plain(), "carries no moment"),
             ("nothing", Vec::new(), "no PNG"),
             ("a text file", b"snapshot = 1, and more of that".to_vec(), "no PNG"),
@@ -223,6 +223,7 @@ mod tests {
             ("no end", plain()[..plain().len() - 12].to_vec(), "cut off"),
             ("100 MiB of text, packed", of(&[b"lensrunner\0\x01\0\0\0", &huge[..]].concat()), "too long"),
             ("100 MiB of text", of(&[b"lensrunner\0\0\0\0\0", &vec![b'a'; 100 << 20][..]].concat()), "too long"),
+            ("zeros without end", [&plain()[..HEAD], &vec![0; 50 << 20]].concat(), "a chunk of the picture has no name"),
             ("no DEFLATE", of(b"lensrunner\0\x01\0\0\0not packed"), "malformed"),
             ("no UTF-8", of(b"lensrunner\0\0\0\0\0\xff\xfe"), "malformed"),
         ];

@@ -297,5 +297,7 @@ mod tests {
             let said = flown(actions, 9.0).expect_err(actions);
             assert!(words.iter().all(|word| said.contains(word)), "{said}");
         }
+        let said = flown(&format!("{{}}\n{{{}}}\n", " ".repeat(1_000_000)), 9.0).expect_err("too long");
+        assert!(said.contains("line 2: is longer than 65536 bytes"), "{said}");
     }
 }
