@@ -32,3 +32,4 @@ pub mod render;
 pub mod scene;
 pub mod sim;
 pub mod spacetime;
+pub mod user_file;

@@ -21,6 +21,7 @@ use lensrunner::sim::snapshot::Snapshot;
 use lensrunner::sim::sweep::{self, Axis};
 use lensrunner::sim::{agent, balance, check};
 use lensrunner::spacetime::light::{Branch, Order};
+use lensrunner::user_file::{Named, write_whole};
 
 /// Width and height of a picture of a scene, in pixels.
 const SIZE: [u32; 2] = [1280, 720];
@@ -448,8 +449,7 @@ fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
 /// Writes a whole file; what goes wrong names it.
 fn save(path: &Path, text: &str) -> Result<(), SimulateError> {
     let named = |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
-    std::fs::create_dir_all(path.parent().unwrap_or(Path::new(""))).and_then(|()| std::fs::write(path, text)).map_err(named)?;
-    Ok(())
+    Ok(write_whole(path, text.as_bytes()).map_err(named)?)
 }
 
 fn run_replay(path: &Path, scene: Option<&str>, config: Option<&Path>) -> ExitCode {
@@ -508,7 +508,7 @@ fn output(path: Option<&PathBuf>) -> io::Result<Box<dyn Write>> {
         Some(path) => {
             let named = |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
             std::fs::create_dir_all(path.parent().unwrap_or(Path::new(""))).map_err(named)?;
-            Box::new(BufWriter::new(File::create(path).map_err(named)?))
+            Box::new(BufWriter::new(Named { path: path.clone(), writer: File::create(path).map_err(named)? }))
         }
         None => Box::new(BufWriter::new(io::stdout())),
     })

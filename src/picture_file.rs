@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
+use crate::user_file::{beside, write_whole};
+
 /// Why a picture could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureFileError {
@@ -33,11 +35,11 @@ pub struct Channel {
     pub data: Vec<f32>,
 }
 
-/// Writes sRGB, 3 bytes a pixel, row by row from the top.
+/// Writes sRGB, 3 bytes a pixel, row by row from the top, whole or not at all.
 pub fn write_png(path: &Path, rgb: &[u8], [width, height]: [u32; 2]) -> Result<(), PictureFileError> {
-    make_folder(path)?;
-    image::save_buffer(path, rgb, width, height, image::ColorType::Rgb8)
-        .map_err(|error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() })
+    let fault = |reason: String| PictureFileError::Write { path: path.to_path_buf(), reason };
+    let bytes = png(rgb, [width, height], false, None).map_err(fault)?;
+    write_whole(path, &bytes).map_err(|error| fault(error.to_string()))
 }
 
 /// The bytes of a PNG of sRGB, 3 bytes a pixel, row by row from the top, with `text` in it ([`chunk`]); `quickly` rather than small.
@@ -57,11 +59,9 @@ pub fn png(rgb: &[u8], [width, height]: [u32; 2], quickly: bool, text: Option<&s
 
 /// Writes a PNG with a text in it, whole or not at all.
 pub fn write_png_with_text(path: &Path, rgb: &[u8], size: [u32; 2], text: &str) -> Result<(), PictureFileError> {
-    make_folder(path)?;
     let fault = |reason: String| PictureFileError::Write { path: path.to_path_buf(), reason };
     let bytes = png(rgb, size, false, Some(text)).map_err(fault)?;
-    let beside = path.with_extension("png.new");
-    std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path)).map_err(|error| fault(error.to_string()))
+    write_whole(path, &bytes).map_err(|error| fault(error.to_string()))
 }
 
 /// Whether the file can be written, asked before the work that it is for; a file that is there keeps what it holds.
@@ -70,7 +70,16 @@ pub fn check_writable(path: &Path) -> Result<(), PictureFileError> {
     let fault = |error: std::io::Error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() };
     let is_new = !path.exists();
     std::fs::OpenOptions::new().append(true).create(true).open(path).map_err(fault)?;
-    if is_new { std::fs::remove_file(path).map_err(fault) } else { Ok(()) }
+    if is_new {
+        std::fs::remove_file(path).map_err(fault)?;
+    }
+    // Where the picture is written first.
+    let place = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    if std::fs::metadata(&place).is_ok_and(|found| !found.is_file()) {
+        return Ok(());
+    }
+    let beside = beside(&place);
+    std::fs::File::create(&beside).and_then(|_| std::fs::remove_file(&beside)).map_err(fault)
 }
 
 /// Makes the folder of a file, where there is none yet.
@@ -79,16 +88,15 @@ fn make_folder(path: &Path) -> Result<(), PictureFileError> {
         .map_err(|error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() })
 }
 
-/// Writes channels as 32-bit floats.
+/// Writes channels as 32-bit floats, whole or not at all.
 pub fn write_exr(path: &Path, [width, height]: [u32; 2], channels: &[Channel]) -> Result<(), PictureFileError> {
     use exr::prelude::*;
-    make_folder(path)?;
     let list: SmallVec<[AnyChannel<FlatSamples>; 4]> =
         channels.iter().map(|channel| AnyChannel::new(channel.name, FlatSamples::F32(channel.data.clone()))).collect();
     let size = (width as usize, height as usize);
     let layer = Layer::new(size, LayerAttributes::named("lensrunner"), Encoding::SMALL_LOSSLESS, AnyChannels::sort(list));
-    Image::from_layer(layer)
-        .write()
-        .to_file(path)
-        .map_err(|error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() })
+    let fault = |reason: String| PictureFileError::Write { path: path.to_path_buf(), reason };
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    Image::from_layer(layer).write().to_buffered(&mut bytes).map_err(|error| fault(error.to_string()))?;
+    write_whole(path, bytes.get_ref()).map_err(|error| fault(error.to_string()))
 }

@@ -60,10 +60,18 @@ pub fn default_table() -> Table {
     load_or_bake(&default_file(), Scheme::Residual, SMALL_NODES, complain, |_| ())
 }
 
-/// The table of `path`; where that cannot be used, `complain` is told why, the table is baked with `nodes` and written there
+/// The table of `path`; where that cannot be used or has fewer nodes, `complain` is told why, the table is baked with `nodes` and written there
 /// (`complain` is told if that fails), and never anything drawn from the file.
 pub fn load_or_bake(path: &Path, scheme: Scheme, nodes: usize, complain: impl Fn(&TableError), done: impl Fn(f64) + Sync) -> Table {
-    let wrong = match Table::load(path, scheme) {
+    let wanted = match scheme {
+        Scheme::Residual => table::bake::size(nodes).map(|nodes| nodes as u32),
+        Scheme::Paper | Scheme::PaperUniform => [nodes as u32; 3],
+    };
+    let loaded = Table::load(path, scheme).and_then(|table| {
+        let has_fewer = table.size.iter().zip(wanted).any(|(found, wanted)| *found < wanted);
+        if has_fewer { Err(TableError::Nodes(path.to_path_buf(), table.size, wanted)) } else { Ok(table) }
+    });
+    let wrong = match loaded {
         Ok(table) => return table,
         Err(wrong) => wrong,
     };

@@ -4,6 +4,7 @@
 
 use super::methods::{self, Projector, Query};
 use crate::spacetime::light::{self, Branch, Order};
+use crate::user_file::short;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::io::{Read, Write};
@@ -19,6 +20,9 @@ pub const OUTPUT_HEADER: &str = "r,phi,L,psi,delay,redshift";
 
 /// Significant digits of the output.
 const DIGITS: usize = 12;
+
+/// The most bytes of a table of points: some ten million.
+const MOST_BYTES: u64 = 512 << 20;
 
 /// The frame in which ψ is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +59,9 @@ pub enum ProjectError {
         /// The line, counted from 1.
         line: usize,
     },
+    /// More than is read.
+    #[error("standard input has more than {MOST_BYTES} bytes, the most that is read")]
+    TooLong,
     /// A row has too few or too many fields.
     #[error("line {line}: expected 3 fields ({INPUT_HEADER}), found {found}")]
     Columns {
@@ -104,7 +111,10 @@ pub struct ProjectRequest {
 /// [`project`] from `input` to `output`; nothing is written if any line is wrong.
 pub fn run(input: &mut dyn Read, output: &mut dyn Write, method: &dyn Projector, request: ProjectRequest) -> Result<(), ProjectError> {
     let mut bytes = Vec::new();
-    input.read_to_end(&mut bytes)?;
+    input.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(ProjectError::TooLong);
+    }
     let text = str::from_utf8(&bytes).map_err(|error| {
         let newlines = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();
         ProjectError::Text { line: newlines + 1 }
@@ -173,8 +183,8 @@ fn parse_row(text: &str, line: usize) -> Result<InputRow<'_>, ProjectError> {
         return Err(ProjectError::Columns { line, found: if text.trim().is_empty() { 0 } else { fields.len() } });
     };
     let number = |field: &'static str, text: &str, range: &'static str, allowed: fn(f64) -> bool| {
-        let value: f64 = text.parse().map_err(|_| ProjectError::Number { line, field, text: text.to_owned() })?;
-        if allowed(value) { Ok(value) } else { Err(ProjectError::Range { line, field, text: text.to_owned(), range }) }
+        let value: f64 = text.parse().map_err(|_| ProjectError::Number { line, field, text: short(text) })?;
+        if allowed(value) { Ok(value) } else { Err(ProjectError::Range { line, field, text: short(text), range }) }
     };
     // 1/x must be a number too, or there is nothing to compute with.
     let radius = |x: f64| x > 0.0 && x.is_finite() && x.recip().is_normal();

@@ -1,17 +1,20 @@
 //! A text inside a PNG: an iTXt chunk with the keyword `lensrunner`, compressed, before the picture's data (PNG specification, third
 //! edition, 11.3.3).
 
-use std::fs::File;
-use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
+use std::io::{BufReader, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use flate2::Compression;
 use flate2::read::{ZlibDecoder, ZlibEncoder};
 
+use crate::user_file;
+
 /// The keyword of our text.
 const KEYWORD: &[u8] = b"lensrunner";
 /// The most bytes of a chunk of ours, and of its text: hours of flight are less than a tenth of it.
 pub const MOST_BYTES: u64 = 32 << 20;
+/// The most bytes of a picture's file.
+pub const MOST_PICTURE: u64 = 1 << 30;
 /// What a PNG begins with.
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 /// Signature and header chunk: what follows it may be any chunk.
@@ -70,20 +73,25 @@ pub fn read_text(path: &Path) -> Result<String, TextError> {
         _ => TextError::Read { path: path.to_path_buf(), source },
     };
     let damaged = |problem| TextError::Damaged { path: path.to_path_buf(), problem };
-    let mut file = BufReader::new(File::open(path).map_err(failed)?);
-    let end = file.get_ref().metadata().map_err(failed)?.len();
+    let (file, end) = user_file::open(path, MOST_PICTURE).map_err(|fault| failed(fault.into()))?;
+    let mut file = BufReader::new(file);
     let mut signature = [0; 8];
     match file.read_exact(&mut signature) {
         Ok(()) if signature == SIGNATURE => (),
         Err(error) if error.kind() != ErrorKind::UnexpectedEof => return Err(failed(error)),
         _ => return Err(TextError::NoPng(path.to_path_buf())),
     }
+    let mut at = signature.len() as u64;
     loop {
         let mut head = [0; 8];
         file.read_exact(&mut head).map_err(failed)?;
         let [length, kind] = [0, 4].map(|from| [head[from], head[from + 1], head[from + 2], head[from + 3]]);
         let length = u64::from(u32::from_be_bytes(length));
-        let after = file.stream_position().map_err(failed)? + length + 4;
+        at += head.len() as u64;
+        let after = at + length + 4;
+        if !kind.iter().all(u8::is_ascii_alphabetic) {
+            return Err(damaged("a chunk of the picture has no name"));
+        }
         if after > end {
             return Err(TextError::CutOff(path.to_path_buf()));
         }
@@ -93,6 +101,7 @@ pub fn read_text(path: &Path) -> Result<String, TextError> {
         if matches!(&kind, b"iTXt" | b"zTXt") && length > KEYWORD.len() as u64 {
             let mut keyword = [0; KEYWORD.len() + 1];
             file.read_exact(&mut keyword).map_err(failed)?;
+            at += keyword.len() as u64;
             if &keyword[..KEYWORD.len()] == KEYWORD && keyword[KEYWORD.len()] == 0 {
                 if length > MOST_BYTES {
                     return Err(damaged("it is too long"));
@@ -108,7 +117,9 @@ pub fn read_text(path: &Path) -> Result<String, TextError> {
                 return text_of(kind == *b"iTXt", &rest).map_err(damaged);
             }
         }
-        file.seek(SeekFrom::Start(after)).map_err(failed)?;
+        // What has been read ahead is kept: there may be many small chunks.
+        file.seek_relative((after - at) as i64).map_err(failed)?;
+        at = after;
     }
 }
 
@@ -201,7 +212,7 @@ mod tests {
         let mut long = good.clone();
         long[HEAD] = 0x7f;
         let huge = packed(&vec![b'a'; 100 << 20]);
-        let cases: [(&str, Vec<u8>, &str); 12] = [
+        let cases: [(&str, Vec<u8>, &str); 13] = [
             ("a plain PNG", plain(), "carries no moment"),
             ("nothing", Vec::new(), "no PNG"),
             ("a text file", b"snapshot = 1, and more of that".to_vec(), "no PNG"),
@@ -212,6 +223,7 @@ mod tests {
             ("no end", plain()[..plain().len() - 12].to_vec(), "cut off"),
             ("100 MiB of text, packed", of(&[b"lensrunner\0\x01\0\0\0", &huge[..]].concat()), "too long"),
             ("100 MiB of text", of(&[b"lensrunner\0\0\0\0\0", &vec![b'a'; 100 << 20][..]].concat()), "too long"),
+            ("zeros without end", [&plain()[..HEAD], &vec![0; 50 << 20]].concat(), "a chunk of the picture has no name"),
             ("no DEFLATE", of(b"lensrunner\0\x01\0\0\0not packed"), "malformed"),
             ("no UTF-8", of(b"lensrunner\0\0\0\0\0\xff\xfe"), "malformed"),
         ];

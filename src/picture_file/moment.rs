@@ -1,10 +1,10 @@
 //! A moment of a flight in a file: in the text that a PNG carries, or as a file of its own, which holds that text alone.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use super::chunk::{MOST_BYTES, TextError, read_text};
+use super::chunk::{MOST_BYTES, MOST_PICTURE, TextError, read_text};
+use crate::user_file;
 
 /// What the text of a moment begins with.
 const BEGINNING: &[u8] = b"snapshot = ";
@@ -12,8 +12,8 @@ const BEGINNING: &[u8] = b"snapshot = ";
 /// Whether a file is a moment of its own: no picture, and no scene.
 pub fn is_moment(path: &Path) -> bool {
     let mut start = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(BEGINNING.len() as u64).read_to_end(&mut start));
-    read.is_ok() && start == BEGINNING
+    let read = user_file::open(path, MOST_PICTURE).map(|(file, _)| file.take(BEGINNING.len() as u64).read_to_end(&mut start));
+    matches!(read, Ok(Ok(_))) && start == BEGINNING
 }
 
 /// The file of the moment that a command was given: as `--from`, or in the place of a scene.
@@ -26,8 +26,5 @@ pub fn read_moment(path: &Path) -> Result<String, TextError> {
     if !is_moment(path) {
         return read_text(path);
     }
-    let failed = |source| TextError::Read { path: path.to_path_buf(), source };
-    let mut text = String::new();
-    File::open(path).and_then(|file| file.take(MOST_BYTES).read_to_string(&mut text)).map_err(failed)?;
-    Ok(text)
+    user_file::read_text(path, MOST_BYTES).map_err(|fault| TextError::Read { path: path.to_path_buf(), source: fault.into() })
 }

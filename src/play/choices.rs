@@ -10,6 +10,7 @@ use bevy::prelude::{Resource, warn};
 use crate::play::files::{set_aside, write_whole};
 use crate::scene::GameConfig;
 use crate::scene::config::{self, Setting, Value, choices_text};
+use crate::user_file;
 
 /// Names another folder than the user's own.
 pub const FOLDER_VARIABLE: &str = "LENSRUNNER_CONFIG";
@@ -48,7 +49,7 @@ impl Choices {
     /// Those of a file, which need not be there yet.
     pub fn load_from(file: &Path) -> (Choices, Option<String>) {
         let none = Choices { file: Some(file.to_path_buf()), ..Choices::default() };
-        let text = match std::fs::read(file) {
+        let text = match user_file::read(file, user_file::MOST_TEXT).map_err(std::io::Error::from) {
             Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return (none, None),
             Err(error) => {

@@ -3,13 +3,12 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::user_file;
+
 /// Writes a file so that it is either the old one or the new, whatever happens.
 pub fn write_whole(file: &Path, text: &str) -> io::Result<()> {
     let named = |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", file.display()));
-    let beside = file.with_extension("new");
-    std::fs::create_dir_all(file.parent().unwrap_or(Path::new("."))).map_err(named)?;
-    std::fs::write(&beside, text).map_err(named)?;
-    std::fs::rename(&beside, file).map_err(named)
+    user_file::write_whole(file, text.as_bytes()).map_err(named)
 }
 
 /// Renames a damaged file so that the next can be written; returns its new name, or None if it stays where it is.

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::play::files::{set_aside, write_whole};
 use crate::scene::Difficulty;
 use crate::sim::replay::Replay;
+use crate::user_file;
 
 /// Names another folder than the user's own.
 pub const FOLDER_VARIABLE: &str = "LENSRUNNER_DATA";
@@ -57,7 +58,7 @@ impl Records {
     pub fn load_from(folder: &Path) -> (Records, Option<String>) {
         let file = folder.join("records.toml");
         let records = |table| Records { table, folder: Some(folder.to_path_buf()) };
-        let text = match std::fs::read_to_string(&file) {
+        let text = match user_file::read_text(&file, user_file::MOST_TEXT).map_err(std::io::Error::from) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return (records(BestTable::new()), None),
             Err(error) => {

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::user_file::short;
+
 /// Who flies the player's ship where nobody sits at it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Crew {
@@ -36,6 +38,6 @@ impl FromStr for Crew {
 
     fn from_str(name: &str) -> Result<Self, String> {
         let found = Crew::ALL.into_iter().find(|crew| crew.name() == name);
-        found.ok_or_else(|| format!("{name:?} is no pilot; known: naive, apprentice, expert"))
+        found.ok_or_else(|| format!("{:?} is no pilot; known: naive, apprentice, expert", short(name)))
     }
 }

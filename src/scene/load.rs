@@ -5,20 +5,21 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeValue;
 
 use super::assets::assets_folder;
 use super::camera::{CameraEntry, SceneCamera, check_camera};
 use super::config::{self, GameConfig};
 use super::document::error::{Complaints, SceneError};
 use super::document::fault::Fault;
-use super::document::{complain_all, one, parse, syntax};
+use super::document::{complain_all, document, one, parse};
 use super::expect::{Expect, ExpectEntry, check_expect};
 use super::mission::{Difficulty, GateEntry, GoalEntry, Mission, MissionEntry, check_mission, levels};
 use super::planet::{Planet, PlanetEntry, SkyEntry, SkySwitches, check_planet, check_sky};
 use super::prop::{Prop, PropEntry, check_props};
 use super::rules::{Rules, RulesEntry};
 use super::ship::{ShipEntry, ShipSpec, check_ships};
+use crate::user_file::{MOST_TEXT, read_text};
 
 /// Everything a scene file says.
 #[derive(Debug, Clone)]
@@ -161,7 +162,7 @@ fn mission(file: &Path, text: &str, entry: &SceneFile, ships: &[ShipSpec]) -> Re
             None => Ok(None),
         };
     };
-    let document = DeTable::parse(text).map_err(|error| one(syntax(file, text, &error)))?;
+    let document = document(file, text).map_err(one)?;
     let levels = levels(document.get_ref()).map_err(|faults| complain_all(file, text, faults))?;
     check_mission(mission, &entry.goal, &entry.gate, ships, levels).map(Some).map_err(|fault| complain_all(file, text, vec![fault]))
 }
@@ -173,7 +174,7 @@ fn fingerprint(text: &str) -> u64 {
 
 /// The keys of `[disk]`, checked by the table of `game.toml`.
 fn disk_keys(file: &Path, text: &str) -> Result<DiskKeys, Complaints> {
-    let document = DeTable::parse(text).map_err(|error| one(syntax(file, text, &error)))?;
+    let document = document(file, text).map_err(one)?;
     let Some(DeValue::Table(table)) = document.get_ref().get("disk").map(Spanned::get_ref) else {
         return Ok(DiskKeys(Vec::new()));
     };
@@ -196,7 +197,7 @@ pub fn load(name_or_path: &str) -> Result<Scene, SceneError> {
     if !path.is_file() {
         return Err(SceneError::NotFound { name: name_or_path.into(), tried: path, known: [names(), mission_names()].concat().join(", ") });
     }
-    let text = std::fs::read_to_string(&path).map_err(|source| SceneError::Read { path: path.clone(), source })?;
+    let text = read_text(&path, MOST_TEXT).map_err(|fault| SceneError::Read { path: path.clone(), source: fault.into() })?;
     let scene = Scene::from_toml(&path, &text).map_err(SceneError::Invalid)?;
     let folder = path.canonicalize().ok().and_then(|path| path.parent().map(PathBuf::from));
     let own = [scenes_folder(), missions_folder()].map(|folder| folder.canonicalize().ok());

@@ -198,8 +198,14 @@ struct BurnEntry {
     acceleration: Spanned<[f64; 3]>,
 }
 
+/// The most ships of a scene.
+const MOST_SHIPS: usize = 1000;
+
 /// Checks all ships of a scene: each by itself, names unique, targets known.
 pub fn check_ships(entries: &[Spanned<ShipEntry>]) -> Result<Vec<ShipSpec>, Fault> {
+    if let Some(entry) = entries.get(MOST_SHIPS) {
+        return Err(Fault { span: entry.span(), message: format!("{} ships, allowed are {MOST_SHIPS}", entries.len()) });
+    }
     let mut ships: Vec<ShipSpec> = Vec::with_capacity(entries.len());
     for entry in entries {
         let ship = check_ship(entry)?;

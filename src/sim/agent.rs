@@ -1,7 +1,7 @@
 //! `lensrunner simulate SCENE --agent`: another program flies the player's ship. For each decision it gets a line of JSON, what is to be
 //! seen, and answers with a line of JSON, what the hands do (see `docs/missions.md`).
 
-use std::io::{BufRead, Write};
+use std::io::{BufRead, Read as _, Write};
 
 use bevy::prelude::*;
 use glam::DVec3;
@@ -25,9 +25,12 @@ use crate::scene::{GameConfig, Scene};
 use crate::spacetime::Observer;
 use crate::spacetime::light::Order;
 use crate::spacetime::matter::ShipState;
+use crate::user_file::brief;
 
 /// T between two decisions unless an action says otherwise, in r_s/c.
 const DECISION: f64 = 0.25;
+/// The most bytes of an action.
+const MOST_BYTES: u64 = 1 << 16;
 /// The longest that an action may last, in r_s/c.
 const LONGEST: f64 = 100.0;
 
@@ -159,14 +162,21 @@ pub fn fly(
         writeln!(observations, "{line}")?;
         observations.flush()?;
         let mut answer = String::new();
-        if over.is_some() || actions.read_line(&mut answer)? == 0 {
+        let wrong = |problem: String| SimulateError::Input(format!("standard input, line {number}: {problem}"));
+        let mut read = || match (&mut *actions).take(MOST_BYTES + 1).read_line(&mut answer) {
+            Err(error) if error.kind() == std::io::ErrorKind::InvalidData => Err(wrong("is no text in UTF-8".into())),
+            other => Ok(other?),
+        };
+        if over.is_some() || read()? == 0 {
             break;
+        }
+        if answer.len() as u64 > MOST_BYTES {
+            return Err(wrong(format!("is longer than {MOST_BYTES} bytes, the most that an action has")));
         }
         if !answer.trim_start().starts_with('{') {
             return Err(SimulateError::Input(format!("standard input, line {number}: an action is an object: {{\"thrust\": [0, 0, -1]}}")));
         }
-        let wrong = |problem: String| SimulateError::Input(format!("standard input, line {number}: {problem}"));
-        let action: Action = serde_json::from_str(&answer).map_err(|error| wrong(error.to_string()))?;
+        let action: Action = serde_json::from_str(&answer).map_err(|error| wrong(brief(&error.to_string())))?;
         let (hands, span) = action.check().map_err(wrong)?;
         world.insert_resource(Hands { pace, ..hands });
         let steps = (span / world.resource::<Clock>().step).round().max(1.0) as u64;
@@ -287,5 +297,7 @@ mod tests {
             let said = flown(actions, 9.0).expect_err(actions);
             assert!(words.iter().all(|word| said.contains(word)), "{said}");
         }
+        let said = flown(&format!("{{}}\n{{{}}}\n", " ".repeat(1_000_000)), 9.0).expect_err("too long");
+        assert!(said.contains("line 2: is longer than 65536 bytes"), "{said}");
     }
 }

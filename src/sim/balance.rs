@@ -11,6 +11,7 @@ use super::run::{FlightReport, RunRequest, run};
 use crate::scene::crew::Crew;
 use crate::scene::mission::{Difficulty, Mission};
 use crate::scene::{self, GameConfig, Scene};
+use crate::user_file::write_whole;
 
 /// Flies missions on all difficulties by all pilots, for many seeds in parallel, and writes how they end: balance.csv, a row a flight, and
 /// balance.md.
@@ -87,7 +88,7 @@ pub fn run_command(args: &BalanceArgs) -> Result<(), CommandError> {
     bar.finish_and_clear();
     for (file, text) in [("balance.csv", csv(&missions, &rows)), ("balance.md", table(&missions, &rows, args))] {
         let path = args.output.join(file);
-        std::fs::write(&path, text).map_err(|error| named(&path, error))?;
+        write_whole(&path, text.as_bytes()).map_err(|error| named(&path, error))?;
     }
     Ok(())
 }

@@ -16,6 +16,7 @@ use super::{Clock, Fleet};
 use crate::scene::config::{self, Value};
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::Observer;
+use crate::user_file::{brief, short};
 
 /// The version of the format.
 const FORMAT: u32 = 1;
@@ -233,14 +234,14 @@ impl Snapshot {
         let head: Head = toml::from_str(text).map_err(|_| no_text())?;
         let version = env!("CARGO_PKG_VERSION");
         if head.snapshot != FORMAT || head.version != version {
-            let made = format!("it was made by version {} (format {}), this is {version} ({FORMAT})", head.version, head.snapshot);
+            let made = format!("it was made by version {} (format {}), this is {version} ({FORMAT})", short(&head.version), head.snapshot);
             return Err(damaged(made));
         }
         let file: SnapshotFile = toml::from_str(text).map_err(|error| {
             let named = error.message().starts_with("unknown field") || error.message().starts_with("missing field");
-            if named { damaged(format!("what it carries of its flight: {}", error.message())) } else { no_text() }
+            if named { damaged(brief(&format!("what it carries of its flight: {}", error.message()))) } else { no_text() }
         })?;
-        let settings = settings(file.settings).map_err(damaged)?;
+        let settings = settings(file.settings).map_err(|wrong| damaged(brief(&wrong)))?;
         let is_ours = |path: &str| path == FIELD_OF_VIEW || path.split_once('.').is_some_and(|(section, _)| SECTIONS.contains(&section));
         if let Some((path, _)) = settings.iter().find(|(path, _)| !is_ours(path)) {
             return Err(damaged(format!("{path} is no setting of a picture")));

@@ -140,6 +140,9 @@ fn the_command_line_answers_and_refuses() {
         assert_eq!(refused.status.code(), Some(2), "{arguments:?}");
         assert!(refused.stdout.is_empty() && !refused.stderr.is_empty());
     }
+    let long = command_line(&[], format!("r,phi,L\n20,1,{}\n", "9".repeat(1_000_000)).as_bytes());
+    let said = String::from_utf8_lossy(&long.stderr).into_owned();
+    assert!(long.status.code() == Some(2) && said.contains("line 2: L = 999") && said.len() < 400, "{said}");
     let named = command_line(&[], b"r,phi,L\n20,1,10\n20,\xff,10\n");
     assert!(String::from_utf8_lossy(&named.stderr).contains("line 3"));
 }

@@ -222,6 +222,44 @@ fn a_file_gives_back_the_table_and_says_what_is_wrong() {
     assert!(matches!(broken(&|b| b[500] ^= 1), TableError::Checksum(_)));
     assert!(matches!(broken(&|b| b.push(0)), TableError::Layout(_)));
     assert!(matches!(Table::load(&path, Scheme::Paper), Err(TableError::Scheme(..))));
+    // A right checksum over values that are none.
+    for value in [f32::NAN, f32::INFINITY, -1e30] {
+        let mut wrong = small.clone();
+        wrong.values[7] = value;
+        let said = Table::from_bytes(&path, &wrong.to_bytes(), Scheme::Residual).unwrap_err().to_string();
+        assert!(said.contains(&format!("t.lut: value 7 is {value}, allowed are numbers from -1000000 to 1000000")), "{said}");
+    }
+    let paper = lensrunner::lensing::bake(Scheme::Paper, 5, |_| ());
+    let flat = Table { size: [5, 5, 6], values: [&paper.values[..], &paper.values[..25 * 8]].concat(), ..paper };
+    assert!(matches!(Table::from_bytes(&path, &flat.to_bytes(), Scheme::Paper), Err(TableError::Layout(_))));
+    // Refused by its length: it would not fit into memory.
+    std::fs::File::create(&path).and_then(|file| file.set_len(12 << 30)).unwrap();
+    let said = Table::load(&path, Scheme::Residual).unwrap_err().to_string();
+    assert!(said.contains("t.lut: it has 12884901888 bytes, allowed are at most 268435456"), "{said}");
+    if cfg!(unix) {
+        let said = Table::load(std::path::Path::new("/dev/zero"), Scheme::Residual).unwrap_err().to_string();
+        assert!(said.contains("/dev/zero: it is a device"), "{said}");
+    }
+}
+
+/// A table of fewer nodes than its name says is not drawn with.
+#[test]
+fn a_coarser_table_is_named_and_baked_again() {
+    let folder = crate::support::Folder::new();
+    for scheme in [Scheme::Paper, Scheme::Residual] {
+        let path = folder.path().join("paper-7.lut");
+        lensrunner::lensing::bake(scheme, 5, |_| ()).save(&path).unwrap();
+        // The shares of the residual scheme: 62 and 106 in a hundred.
+        let (found, wanted) = if scheme == Scheme::Paper { ([5; 3], [16; 3]) } else { ([5; 3], [9, 16, 16]) };
+        let told = std::cell::Cell::new(String::new());
+        let table = load_or_bake(&path, scheme, 16, |wrong| told.set(wrong.to_string()), |_| ());
+        let said = told.take();
+        assert!(said.contains(&format!("paper-7.lut: has {found:?} nodes along r, Φ and L, wanted are at least {wanted:?}")), "{said}");
+        assert_eq!(table.size, wanted);
+        // Now it is there; and one of more nodes is as good.
+        let same = load_or_bake(&path, scheme, 16, |wrong| panic!("{wrong}"), |_| ());
+        assert!(same == table && load_or_bake(&path, scheme, 6, |wrong| panic!("{wrong}"), |_| ()) == table);
+    }
 }
 
 #[test]

@@ -110,3 +110,80 @@ fn a_refused_value_changes_nothing() {
     assert!(orders.set(&mut config, Value::Integer(9)).is_err());
     assert_eq!(config, GameConfig::default());
 }
+
+/// What the program says of a configuration, with its exit code, and after how many seconds.
+fn said_of(file: &Path) -> (Option<i32>, String, f64) {
+    let begun = std::time::Instant::now();
+    let mut run = std::process::Command::new(env!("CARGO_BIN_EXE_lensrunner"));
+    let ended = run.args(["simulate", "chase", "--until", "0.1", "--config"]).arg(file).output().expect("the program starts");
+    (ended.status.code(), String::from_utf8_lossy(&ended.stderr).into_owned(), begun.elapsed().as_secs_f64())
+}
+
+/// Without end, without a writer, longer than is read, no text, too deep: each is refused at once by file, place and limit.
+#[test]
+fn files_that_are_no_texts_of_a_person_are_refused_at_once() {
+    let folder = crate::support::Folder::new();
+    let written = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path
+    };
+    let long = folder.path().join("long.toml");
+    std::fs::File::create(&long).and_then(|file| file.set_len(12 << 30)).unwrap();
+    let levels = 100_000;
+    let mut cases = vec![
+        (folder.path().to_path_buf(), "it is a folder"),
+        (long, "it has 12884901888 bytes, allowed are at most 4194304"),
+        (written("latin.toml", b"[render]\n\n# \xe9\n"), "line 3 is no text in UTF-8"),
+        (
+            written("arrays.toml", format!("[render]\norders = {}{}\n", "[".repeat(levels), "]".repeat(levels)).as_bytes()),
+            ":2: arrays, tables",
+        ),
+        (written("tables.toml", format!("\n[render]\norders = {}", "{a=".repeat(levels)).as_bytes()), ":3: arrays, tables"),
+        (written("keys.toml", format!("[render]\n{}a = 1\n", "a.".repeat(levels)).as_bytes()), ":2: arrays, tables"),
+        (written("heads.toml", format!("[{}a]\n", "a.".repeat(levels)).as_bytes()), "allowed are 32 levels"),
+    ];
+    if cfg!(unix) {
+        let pipe = folder.path().join("pipe.toml");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        cases.extend([(pipe, "it is a pipe"), ("/dev/zero".into(), "it is a device")]);
+    }
+    for (file, wanted) in cases {
+        let (code, said, seconds) = said_of(&file);
+        assert!(code == Some(2) && said.contains(wanted) && said.contains(&file.display().to_string()), "{code:?}: {said}");
+        assert!(seconds < 5.0 && said.len() < 1000, "{seconds} s: {said}");
+    }
+}
+
+#[test]
+fn of_many_faults_the_first_are_said_and_how_many_more_there_are() {
+    let begun = std::time::Instant::now();
+    let keys: String = (0..200_000).map(|k| format!("k{k} = 1\n")).collect();
+    let sections: String = (0..200_000).map(|k| format!("[k{k}]\na = 1\n")).collect();
+    for (text, first) in
+        [(format!("[render]\n{keys}"), "game.toml:2: render.k0: unknown key; known keys: "), (sections, "game.toml:1: k0: ")]
+    {
+        let said = parse(Path::new("game.toml"), &text).expect_err("must be refused").to_string();
+        let lines: Vec<&str> = said.lines().collect();
+        assert!(lines.len() == 21 && lines[0].starts_with(first) && lines[19].contains("unknown"), "{said}");
+        assert_eq!(lines[20], "game.toml: and 199980 more are wrong");
+    }
+    let seconds = begun.elapsed().as_secs_f64();
+    assert!(seconds < 10.0, "{seconds} s");
+}
+
+#[test]
+fn long_values_are_cut_where_they_are_said() {
+    let long = "x".repeat(1_000_000);
+    for (text, parts) in [
+        (format!("[render]\norders = \"{long}\"\n"), ["game.toml:2: render.orders: \"xxx", "1000000 bytes", "whole numbers 1 to 3"]),
+        (format!("[render]\nmethod = \"{long}\"\n"), ["game.toml:2: render.method: \"xxx", "1000000 bytes", "\"table\""]),
+        (format!("[render]\n{long} = 1\n"), ["game.toml:2: render.xxx", "bytes", "unknown key"]),
+        (format!("[{long}]\n"), ["game.toml:1: xxx", "1000000 bytes", "unknown section"]),
+    ] {
+        let said = parse(Path::new("game.toml"), &text).expect_err("must be refused").to_string();
+        assert!(parts.iter().all(|part| said.contains(part)) && said.len() < 2000, "{} bytes: {said}", said.len());
+    }
+    let said = format!("render.orders={long}").parse::<lensrunner::scene::config::Assignment>().expect_err("no number");
+    assert!(said.contains("render.orders: \"xxx") && said.len() < 400, "{said}");
+}

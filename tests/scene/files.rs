@@ -212,3 +212,36 @@ fn the_documented_examples_are_scenes() {
         }
     }
 }
+
+/// What cannot be a scene is refused at once, and what is said of it is short.
+#[test]
+fn scenes_out_of_all_bounds_are_refused_at_once() {
+    let begun = std::time::Instant::now();
+    let long = "x".repeat(1_000_000);
+    let ships: String = (0..40_000).map(|k| format!("[[ship]]\nname = \"s{k}\"\norbit = {{ radius = 6.0 }}\n")).collect();
+    for (text, parts) in [
+        (format!("[camera]\n{long} = 3\n"), ["some/scene.toml:2:", "unknown field", "fov"]),
+        (format!("[camera]\nfov = \"{long}\"\n"), ["some/scene.toml:2:", "camera.fov", "f64"]),
+        (format!("[[prop]]\nmodel = \"{long}\"\n"), ["some/scene.toml:2:", "prop[0].model", "lattice"]),
+        (format!("[camera]\nfollow = \"{long}\"\n"), ["some/scene.toml:2:", "camera.follow", "no ship"]),
+        (format!("[camera]\nposition = {}", "[".repeat(500_000)), ["some/scene.toml:2:", "allowed are 32 levels", ""]),
+        (ships, ["some/scene.toml:3001:", "40000 ships, allowed are 1000", ""]),
+    ] {
+        let said = complaint(&text);
+        assert!(
+            parts.iter().all(|part| said.contains(part)) && said.len() < 2000,
+            "{} bytes: {said}, lacking one of {parts:?}",
+            said.len()
+        );
+    }
+    let seconds = begun.elapsed().as_secs_f64();
+    assert!(seconds < 10.0, "{seconds} s");
+    let folder = crate::support::Folder::new();
+    let file = folder.path().join("a.toml");
+    std::fs::File::create(&file).and_then(|file| file.set_len(12 << 30)).unwrap();
+    let said = load(&file.to_string_lossy()).unwrap_err().to_string();
+    assert!(said.contains("a.toml: it has 12884901888 bytes, allowed are at most 4194304"), "{said}");
+    std::fs::write(&file, b"[camera]\n# \xff\n").unwrap();
+    let said = load(&file.to_string_lossy()).unwrap_err().to_string();
+    assert!(said.contains("a.toml: line 2 is no text in UTF-8"), "{said}");
+}

@@ -129,6 +129,169 @@ fn a_missing_or_broken_model_is_named_and_replaced() {
         let error = load_model(&path).unwrap_err();
         assert!(matches!(error, ModelError::Gltf { .. }) && error.to_string().contains("broken.glb"), "{error}");
     }
+    // A length that ends before its own header.
+    std::fs::write(&path, [&whole[..8], &4u32.to_le_bytes(), &whole[12..]].concat()).unwrap();
+    let said = load_model(&path).unwrap_err().to_string();
+    assert!(said.contains("broken.glb") && said.contains("4 bytes, allowed 20"), "{said}");
+}
+
+/// A model of a text in glTF whose first buffer holds `bytes`, and what became of it.
+fn model_of(bytes: &[u8], text: &str) -> Result<Model, String> {
+    let folder = crate::support::Folder::new();
+    let path = folder.path().join("one.gltf");
+    let data = format!("data:application/octet-stream;base64,{}", data_encoding::BASE64.encode(bytes));
+    std::fs::write(&path, text.replace("LENGTH", &bytes.len().to_string()).replace("DATA", &data)).unwrap();
+    std::fs::write(folder.path().join("beside file.bin"), bytes).unwrap();
+    let begun = std::time::Instant::now();
+    let made = load_model(&path).map_err(|error| error.to_string());
+    assert!(begun.elapsed().as_secs_f64() < 5.0, "it took {:?}", begun.elapsed());
+    made.inspect(|model| assert_eq!(model.fault(), None))
+}
+
+/// Three positions and three indices: 36 bytes and 3 shorts. Words in capitals are put in by [`model_of`].
+const TRIANGLE: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],"materials":[{"emissiveFactor":[1,0.5,0]}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
+    {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],
+    "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
+    "buffers":[{"byteLength":LENGTH,"uri":"DATA"}]}"#;
+
+fn corners(numbers: [f32; 9], indices: [u16; 3]) -> Vec<u8> {
+    let numbers = numbers.iter().flat_map(|number| number.to_le_bytes());
+    numbers.chain(indices.iter().flat_map(|index| index.to_le_bytes())).collect()
+}
+
+const CORNERS: [f32; 9] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+
+#[test]
+fn a_model_is_refused_by_place_value_and_range() {
+    let right = corners(CORNERS, [0, 1, 2]);
+    assert_eq!(model_of(&right, TRIANGLE).unwrap().triangles, [[0, 1, 2]]);
+    for (from, to, parts) in [
+        (r#"0,"byteLength":36"#, r#"0,"byteLength":36,"byteStride":13"#, ["bufferViews[0].byteStride = 13", "multiples of 4"]),
+        (r#"0,"byteLength":36"#, r#"0,"byteLength":36,"byteStride":8"#, ["accessors[0]: elements of 12 bytes", "byteStride = 8"]),
+        (r#""componentType":5123"#, r#""componentType":5122"#, ["primitives[0].indices = 1", "unsigned whole numbers"]),
+        (r#""componentType":5123"#, r#""componentType":5126"#, ["accessors[1]: 3 elements of 4 bytes", "the 6 of bufferViews[1]"]),
+        (r#""count":3,"type":"SCALAR""#, r#""count":6,"type":"SCALAR""#, ["accessors[1]: 6 elements", "the 6 of bufferViews[1]"]),
+        (r#""count":3,"type":"SCALAR""#, r#""count":2,"type":"SCALAR""#, ["indices: 2 corners", "a multiple of 3"]),
+        (r#""count":3,"type":"SCALAR""#, r#""count":0,"type":"SCALAR""#, ["accessors[1].count = 0", "1 or more"]),
+        (r#""count":3,"type":"VEC3""#, r#""count":3,"type":"VEC2""#, ["attributes.POSITION = 0", "three floats"]),
+        (r#""POSITION":0"#, r#""POSITION":0,"TEXCOORD_0":1"#, ["attributes.TEXCOORD_0 = 1", "two floats"]),
+        (r#""POSITION":0"#, r#""NORMAL":0"#, ["attributes.POSITION", "missing"]),
+        (r#""byteOffset":36"#, r#""byteOffset":40"#, ["bufferViews[1]: 6 bytes from 40 on", "the 42 of its buffer"]),
+        (r#""byteOffset":36"#, r#""byteOffset":18446744073709551615"#, ["bufferViews[1]: 6 bytes from 18446744073709551615", "42"]),
+        (r#""byteLength":LENGTH"#, r#""byteLength":48"#, ["buffers[0].byteLength = 48", "42 bytes"]),
+        (r#"{"mesh":0}"#, r#"{"mesh":0,"children":[0]}"#, ["nodes[0]", "in a circle"]),
+        (r#"{"mesh":0}"#, r#"{"mesh":0,"scale":[1e30,1,1]}"#, ["vertex 1 is at", "-1000 to 1000"]),
+        (r#"{"mesh":0}"#, r#"{"mesh":0,"scale":[1e-30,1e-30,1]}"#, ["from the origin", "0.001 to 1000"]),
+        (r#"{"mesh":0}"#, r#"{"mesh":0,"scale":[1,0,1]}"#, ["none of its triangles", "area"]),
+        ("[1,0.5,0]", "[1,-0.5,0]", ["materials[0]: emissiveFactor [1.0, -0.5, 0.0]", "allowed 0 to"]),
+        ("DATA", "/etc/hostname", ["buffers[0].uri = \"/etc/hostname\"", "beside the model"]),
+        ("DATA", "../one.gltf", ["buffers[0].uri = \"../one.gltf\"", "beside the model"]),
+        ("DATA", "%2e%2e/one.gltf", ["buffers[0].uri", "beside the model"]),
+        ("DATA", "file:///dev/zero", ["buffers[0].uri = \"file:///dev/zero\"", "beside the model"]),
+        ("DATA", "none.bin", ["buffers[0].uri = \"none.bin\"", ""]),
+        ("DATA", ".", ["buffers[0].uri", "a folder"]),
+        ("DATA", "data:,plain", ["buffers[0].uri", ";base64,"]),
+        (r#""count":3,"type":"VEC3""#, r#""count":99999999999,"type":"VEC3""#, ["accessors[0]: 99999999999 elements", "36"]),
+        (
+            r#"{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}"#,
+            r#"{"componentType":5125,"count":3000000000,"type":"SCALAR","sparse":{"count":1,
+                "indices":{"bufferView":0,"componentType":5125},"values":{"bufferView":0}}}"#,
+            ["primitives[0].indices: 1000000000 triangles", "allowed 500000"],
+        ),
+    ] {
+        assert!(TRIANGLE.contains(from), "{from}");
+        let said = model_of(&right, &TRIANGLE.replacen(from, to, 1)).expect_err(to);
+        assert!(said.contains("one.gltf: ") && parts.iter().all(|part| said.contains(part)), "{to} gave {said}, lacking one of {parts:?}");
+        assert!(said.len() < 400, "{said}");
+    }
+    let said = model_of(&corners(CORNERS, [0, 1, 7]), TRIANGLE).expect_err("past its end");
+    assert!(said.contains("index 7") && said.contains("3 vertices"), "{said}");
+    for far in [1e10, f32::MAX, f32::INFINITY, f32::NAN] {
+        let mut numbers = CORNERS;
+        numbers[3] = far;
+        let said = model_of(&corners(numbers, [0, 1, 2]), TRIANGLE).expect_err("far");
+        assert!(said.contains("vertex 1 is at") && said.contains("-1000 to 1000"), "{said}");
+    }
+    let said = model_of(&right, &TRIANGLE.replace("\"nodes\":[0]", &format!("\"name\":{}", "x".repeat(1_000_000)))).expect_err("long");
+    assert!(said.len() < 400, "{said}");
+}
+
+/// Forty levels of two children each that are the same node: a million million triangles of a few bytes.
+#[test]
+fn a_node_hangs_in_one_place() {
+    let levels: Vec<String> = (1..=40).map(|level| format!(r#"{{"children":[{level},{level}]}}"#)).collect();
+    let nodes = format!(r#""nodes":[{},{{"mesh":0}}]"#, levels.join(","));
+    let said = model_of(&corners(CORNERS, [0, 1, 2]), &TRIANGLE.replace(r#""nodes":[{"mesh":0}]"#, &nodes)).expect_err("shared");
+    assert!(said.contains("hangs in two places"), "{said}");
+    // A million of nodes take more memory than their text.
+    let many = vec!["{}"; 1_000_000].join(",");
+    let said = model_of(&[], &TRIANGLE.replace(r#"{"mesh":0}"#, &many)).expect_err("too many");
+    assert!(said.contains("entries, allowed are 500000"), "{said}");
+}
+
+#[test]
+fn the_triangles_of_all_nodes_are_counted_before_they_are_made() {
+    // Indices without a buffer are zeros but for one.
+    let indices = r#"{"componentType":5125,"count":300000,"type":"SCALAR","sparse":{"count":1,
+        "indices":{"bufferView":0,"componentType":5125},"values":{"bufferView":0}}}"#;
+    let text = TRIANGLE.replace(r#"{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}"#, indices);
+    let six = text.replace(r#""scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}]"#, &{
+        let nodes = vec![r#"{"mesh":0}"#; 6].join(",");
+        format!(r#""scenes":[{{"nodes":[0,1,2,3,4,5]}}],"nodes":[{nodes}]"#)
+    });
+    let said = model_of(&corners(CORNERS, [0, 1, 2]), &six).expect_err("600,000");
+    assert!(said.contains("more than 500000 triangles"), "{said}");
+}
+
+#[test]
+fn files_beside_the_model_are_read_and_no_others() {
+    let right = corners(CORNERS, [0, 1, 2]);
+    assert_eq!(model_of(&right, &TRIANGLE.replace("DATA", "beside%20file.bin")).unwrap().triangles, [[0, 1, 2]]);
+    #[cfg(unix)]
+    {
+        let folder = crate::support::Folder::new();
+        let path = folder.path().join("one.gltf");
+        std::os::unix::fs::symlink("/dev/zero", folder.path().join("zero.bin")).unwrap();
+        std::fs::write(&path, TRIANGLE.replace("DATA", "zero.bin").replace("LENGTH", "42")).unwrap();
+        let said = load_model(&path).unwrap_err().to_string();
+        assert!(said.contains("buffers[0].uri = \"zero.bin\": it is a device"), "{said}");
+        let said = load_model(std::path::Path::new("/dev/zero")).unwrap_err().to_string();
+        assert!(said.contains("model /dev/zero: it is a device"), "{said}");
+    }
+    // Of a length that it does not fill.
+    let folder = crate::support::Folder::new();
+    let path = folder.path().join("long.glb");
+    std::fs::File::create(&path).and_then(|file| file.set_len(12 << 30)).unwrap();
+    let said = load_model(&path).unwrap_err().to_string();
+    assert!(said.contains("it has 12884901888 bytes, allowed are at most 268435456"), "{said}");
+}
+
+/// The picture of a material: of a size that it may have, and no other kind of file.
+#[test]
+fn images_of_a_model_are_bounded() {
+    let picture = |width: u32, height: u32| {
+        let mut png = Vec::new();
+        let encoder = image::codecs::png::PngEncoder::new(&mut png);
+        let pixels = vec![9; (width * height) as usize];
+        image::ImageEncoder::write_image(encoder, &pixels, width, height, image::ExtendedColorType::L8).unwrap();
+        png
+    };
+    let with = |bytes: &[u8]| {
+        let data = format!("data:image/png;base64,{}", data_encoding::BASE64.encode(bytes));
+        let shown = format!(
+            r#""materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}],"textures":[{{"source":0}}],
+            "images":[{{"uri":"{data}"}}]"#
+        );
+        model_of(&corners(CORNERS, [0, 1, 2]), &TRIANGLE.replace(r#""materials":[{"emissiveFactor":[1,0.5,0]}]"#, &shown))
+    };
+    let texture = with(&picture(3, 2)).unwrap().materials[0].texture.clone().unwrap();
+    assert_eq!((texture.width, texture.height, texture.rgba[..4].to_vec()), (3, 2, vec![9, 9, 9, 255]));
+    let said = with(&picture(8193, 1)).expect_err("too wide");
+    assert!(said.contains("images[0]: 8193 × 1 pixels, allowed 8192"), "{said}");
+    assert!(with(b"GIF89a").expect_err("another kind").contains("images[0] is neither PNG nor JPEG"));
+    assert!(with(&picture(30, 20)[..60]).expect_err("cut off").contains("images[0]: "));
 }
 
 #[test]

@@ -171,3 +171,51 @@ fn what_cannot_be_run_is_refused_with_the_range() {
         simulate(&empty, &GameConfig::default(), &SimulateRequest::default(), &mut Vec::new(), &mut Vec::new()).expect_err("refused");
     assert!(error.to_string().contains("at least one [[ship]]"));
 }
+
+/// A disk that is full is said with the file that was to be written.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_cannot_be_written_is_named() {
+    let run = |args: &[&str]| {
+        let ended = std::process::Command::new(env!("CARGO_BIN_EXE_lensrunner")).args(args).output().expect("the program starts");
+        (ended.status.code(), String::from_utf8_lossy(&ended.stderr).into_owned())
+    };
+    for args in [
+        &["simulate", "chase", "--until", "1", "-o", "/dev/full"][..],
+        &["simulate", "chase", "--until", "1", "--save-replay", "/dev/full"],
+        &["simulate", "chase", "--until", "1", "--sweep", "ship.fuel=1,2", "-o", "/dev/full"],
+        &["trace", "--scene", "plunge", "--size", "4x4", "-o", "/dev/full"],
+        &["bake", "--nodes", "5", "--points", "0", "-o", "/dev/full"],
+    ] {
+        let (code, said) = run(args);
+        assert!(matches!(code, Some(1 | 2)) && said.contains("/dev/full"), "{args:?}: {code:?}, {said}");
+    }
+    // As a picture by its name, through a link.
+    let folder = crate::support::Folder::new();
+    for name in ["a.png", "a.exr"] {
+        let path = folder.path().join(name);
+        std::os::unix::fs::symlink("/dev/full", &path).expect("a link");
+        let (code, said) = run(&["trace", "--scene", "plunge", "--size", "4x4", "-o", &path.to_string_lossy()]);
+        assert!(code == Some(1) && said.contains(name) && said.contains("No space left"), "{code:?}: {said}");
+    }
+}
+
+/// Where the new picture cannot be written the old one stays as it is, and nothing is left beside it.
+#[test]
+fn pictures_are_written_whole_or_not_at_all() {
+    let folder = crate::support::Folder::new();
+    let path = folder.path().join("a.png");
+    let size = [3, 2];
+    lensrunner::picture_file::write_png(&path, &[9; 18], size).expect("written");
+    let old = std::fs::read(&path).expect("it is there");
+    assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 1);
+    std::fs::create_dir(lensrunner::user_file::beside(&path)).expect("in the way");
+    assert!(lensrunner::picture_file::check_writable(&path).is_err());
+    for said in [
+        lensrunner::picture_file::write_png(&path, &[8; 18], size).expect_err("refused").to_string(),
+        lensrunner::picture_file::write_png_with_text(&path, &[8; 18], size, "a = 1").expect_err("refused").to_string(),
+    ] {
+        assert!(said.contains("a.png"), "{said}");
+    }
+    assert_eq!(std::fs::read(&path).expect("it is there"), old);
+}

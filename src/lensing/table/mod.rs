@@ -10,6 +10,8 @@ pub mod spline;
 
 use std::path::{Path, PathBuf};
 
+use crate::user_file::{self, FileFault};
+
 /// The first bytes of a table file.
 const MAGIC: &[u8; 8] = b"LENSTAB\n";
 /// The version of the layout and of the formulas that the values belong to: raised whenever either changes.
@@ -20,6 +22,10 @@ const UNITS: &str = "r_s; r_s/c; rad";
 const HEADER: usize = 8 + 4 + 16 + 12 + 48 + 32 + 8;
 /// The most nodes along an axis.
 const MOST_NODES: u32 = 4096;
+/// The most bytes of a file: some times the largest table that `bake` makes.
+const MOST_BYTES: u64 = 256 << 20;
+/// The largest value, far more than any delay in r_s/c from the farthest point.
+const MOST_VALUE: f32 = 1e6;
 
 /// What a table stores.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,6 +64,8 @@ impl Scheme {
         let [x, y, z] = [x as usize, y as usize, z as usize];
         Some(match self {
             Scheme::Residual => (x + 2) * (y + 2) * (z + 2) * 3,
+            // These have as many along each axis.
+            _ if x != y || y != z => return None,
             Scheme::Paper | Scheme::PaperUniform => x * y * z * crate::lensing::paper_format::CHANNELS,
         })
     }
@@ -106,6 +114,12 @@ pub enum TableError {
     Scheme(PathBuf, String, &'static str),
     #[error("{}: its sizes or ranges are not this program's", .0.display())]
     Layout(PathBuf),
+    #[error("{}: {}", .0.display(), .1)]
+    File(PathBuf, FileFault),
+    #[error("{}: value {} is {}, allowed are numbers from -{MOST_VALUE} to {MOST_VALUE}", .0.display(), .1, .2)]
+    Value(PathBuf, usize, f32),
+    #[error("{}: has {:?} nodes along r, Φ and L, wanted are at least {:?}", .0.display(), .1, .2)]
+    Nodes(PathBuf, [u32; 3], [u32; 3]),
 }
 
 impl Table {
@@ -162,23 +176,24 @@ impl Table {
         if !fits {
             return Err(TableError::Layout(path()));
         }
-        let values = bytes[HEADER..whole - 4].as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b)).collect();
+        let values: Vec<f32> = bytes[HEADER..whole - 4].as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b)).collect();
+        if let Some(place) = values.iter().position(|value| !(value.abs() <= MOST_VALUE)) {
+            return Err(TableError::Value(path(), place, values[place]));
+        }
         Ok(Table { scheme: wanted, size, values })
     }
 
     /// Writes the file `path`.
     pub fn save(&self, path: &Path) -> Result<(), TableError> {
-        if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
-            std::fs::create_dir_all(folder).map_err(|e| TableError::Io(path.to_path_buf(), e))?;
-        }
-        std::fs::write(path, self.to_bytes()).map_err(|e| TableError::Io(path.to_path_buf(), e))
+        user_file::write_whole(path, &self.to_bytes()).map_err(|e| TableError::Io(path.to_path_buf(), e))
     }
 
     /// Reads the file `path`, which must hold `wanted`.
     pub fn load(path: &Path, wanted: Scheme) -> Result<Table, TableError> {
-        let bytes = std::fs::read(path).map_err(|e| match e.kind() {
-            std::io::ErrorKind::NotFound => TableError::Missing(path.to_path_buf()),
-            _ => TableError::Io(path.to_path_buf(), e),
+        let bytes = user_file::read(path, MOST_BYTES).map_err(|fault| match fault {
+            FileFault::Io(e) if e.kind() == std::io::ErrorKind::NotFound => TableError::Missing(path.to_path_buf()),
+            FileFault::Io(e) => TableError::Io(path.to_path_buf(), e),
+            fault => TableError::File(path.to_path_buf(), fault),
         })?;
         Table::from_bytes(path, &bytes, wanted)
     }

@@ -25,6 +25,7 @@ use crate::sim::bolts::Bolts;
 use crate::sim::replay::Replay;
 use crate::sim::snapshot::{Snapshot, View, step_after};
 use crate::sim::{Clock, Fleet, History, outcome};
+use crate::user_file::write_whole;
 
 use crate::play::camera::director::{Cast, Director};
 use crate::play::demonstration::sheet::Sheet;
@@ -293,5 +294,5 @@ impl Writer {
 pub fn write_png(path: &Path, size: [u32; 2], rgb: &[u8], text: Option<&str>) -> Result<(), FlightError> {
     let failed = |reason: String| FlightError::Write { path: path.to_path_buf(), reason };
     let bytes = picture_file::png(rgb, size, true, text).map_err(failed)?;
-    fs::write(path, bytes).map_err(|error| failed(error.to_string()))
+    write_whole(path, &bytes).map_err(|error| failed(error.to_string()))
 }

@@ -13,6 +13,7 @@ use crate::play::session::{SCENE, Session};
 use crate::scene::config::edit::edited;
 use crate::scene::config::{self, Assignment, Setting};
 use crate::scene::{Difficulty, GameConfig};
+use crate::user_file::{MOST_TEXT, read_text};
 
 /// What the game would begin with: the file, and the player's choices over it.
 pub fn begun(world: &World) -> GameConfig {
@@ -44,7 +45,7 @@ pub fn save(world: &mut World) -> Result<String, String> {
     // Where a link leads the file is, not the link.
     let place = file.canonicalize().unwrap_or_else(|_| file.clone());
     let named = |error: std::io::Error| format!("{}: {error}", file.display());
-    let text = match std::fs::read_to_string(&place) {
+    let text = match read_text(&place, MOST_TEXT).map_err(std::io::Error::from) {
         Ok(text) => text,
         Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
         Err(error) => return Err(format!("not saved: {}", named(error))),

@@ -13,6 +13,7 @@ use crate::play::picture::snapshot::snapshot;
 use crate::play::picture::staging::Staged;
 use crate::play::window::pictures::{folders, save_new, stem};
 use crate::sim::snapshot::Snapshot;
+use crate::user_file::write_whole;
 
 /// Writes frames, and closes the window after so many.
 pub struct RecordPlugin {
@@ -145,8 +146,7 @@ fn encoded(image: Image, moment: Option<Snapshot>) -> Result<Vec<u8>, String> {
 }
 
 fn write(path: &Path, png: &[u8]) -> Result<(), String> {
-    let made = path.parent().map_or(Ok(()), std::fs::create_dir_all);
-    made.and_then(|()| std::fs::write(path, png)).map_err(|error| error.to_string())
+    write_whole(path, png).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]

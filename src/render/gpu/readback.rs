@@ -6,6 +6,7 @@ use thiserror::Error;
 
 use crate::picture_file;
 use crate::render::Gpu;
+use crate::user_file::write_whole;
 
 /// Why a picture could not be written.
 #[derive(Debug, Error)]
@@ -181,14 +182,11 @@ impl Picture {
     /// The same; a PNG carries `text`, if that is given.
     pub fn write_with_text(&self, path: &Path, text: Option<&str>) -> Result<(), PictureError> {
         let failed = |reason: String| PictureError::Write { path: path.display().to_string(), reason };
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(|error| failed(error.to_string()))?;
-        }
         match path.extension().and_then(|extension| extension.to_str()) {
             Some("png") => {
                 let opaque: Vec<u8> = self.display.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
                 let bytes = picture_file::png(&opaque, self.size, false, text).map_err(failed)?;
-                std::fs::write(path, bytes).map_err(|error| failed(error.to_string()))
+                write_whole(path, &bytes).map_err(|error| failed(error.to_string()))
             }
             Some("exr") => self.write_exr(path).map_err(|error| failed(error.to_string())),
             _ => Err(PictureError::Format(path.display().to_string())),
@@ -208,6 +206,8 @@ impl Picture {
         }
         let size = (self.size[0] as usize, self.size[1] as usize);
         let layer = Layer::new(size, LayerAttributes::named("lensrunner"), Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
-        Image::from_layer(layer).write().to_file(path)
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        Image::from_layer(layer).write().to_buffered(&mut bytes)?;
+        Ok(write_whole(path, bytes.get_ref())?)
     }
 }

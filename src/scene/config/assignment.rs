@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use super::fields::{GameConfig, setting};
 use super::setting::{Allowed, Setting, Value};
+use crate::user_file::short;
 
 /// A setting and a value that it may have.
 #[derive(Clone, Debug)]
@@ -28,8 +29,8 @@ impl FromStr for Assignment {
 
     fn from_str(text: &str) -> Result<Assignment, String> {
         let usage = "written KEY=VALUE, as render.orders=3";
-        let (path, word) = text.split_once('=').ok_or_else(|| format!("{text:?} must be {usage}"))?;
-        let setting = setting(path.trim()).ok_or_else(|| format!("{path:?} is no setting of game.toml"))?;
+        let (path, word) = text.split_once('=').ok_or_else(|| format!("{:?} must be {usage}", short(text)))?;
+        let setting = setting(path.trim()).ok_or_else(|| format!("{:?} is no setting of game.toml", short(path)))?;
         Ok(Assignment { setting, value: setting.read(word)? })
     }
 }
@@ -47,10 +48,11 @@ impl Setting<GameConfig> {
     /// A value in words as this setting may have it, or what is wrong.
     pub fn read(&self, word: &str) -> Result<Value, String> {
         let (path, word) = (self.path(), word.trim());
+        let said = || short(word);
         let value = match self.allowed {
-            Allowed::Number { .. } => Value::Number(word.parse().map_err(|_| format!("{path}: {word:?} is no number"))?),
-            Allowed::Integer { .. } => Value::Integer(word.parse().map_err(|_| format!("{path}: {word:?} is no whole number"))?),
-            Allowed::Switch => Value::Switch(word.parse().map_err(|_| format!("{path}: {word:?} must be true or false"))?),
+            Allowed::Number { .. } => Value::Number(word.parse().map_err(|_| format!("{path}: {:?} is no number", said()))?),
+            Allowed::Integer { .. } => Value::Integer(word.parse().map_err(|_| format!("{path}: {:?} is no whole number", said()))?),
+            Allowed::Switch => Value::Switch(word.parse().map_err(|_| format!("{path}: {:?} must be true or false", said()))?),
             Allowed::Choice(_) | Allowed::Buttons | Allowed::Words(_) => Value::Word(word.into()),
         };
         self.check(value).map_err(|wrong| format!("{path} = {wrong}"))

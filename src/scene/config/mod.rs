@@ -13,7 +13,8 @@ use toml::de::{DeString, DeTable, DeValue};
 
 use super::document::error::{Complaints, ConfigError};
 use super::document::fault::Fault;
-use super::document::{complain_all, one, syntax};
+use super::document::{MOST_SAID, complain_all, document, one};
+use crate::user_file::{MOST_TEXT, read_text};
 pub use assignment::Assignment;
 pub use fields::{
     Accessibility, Assist, AuroraConfig, Clock, Controls, Disk, Enemy, GameConfig, HELD, Hole, Interface, METHODS, Render, RulesConfig,
@@ -53,13 +54,13 @@ pub fn assign(config: &mut GameConfig, set: &[Assignment]) -> Result<(), ConfigE
 
 /// Reads `path`. Keys that are left out keep their default; unknown keys, wrong types and values out of range are errors.
 pub fn load(path: &Path) -> Result<GameConfig, ConfigError> {
-    let text = std::fs::read_to_string(path).map_err(|source| ConfigError::Read { path: path.to_path_buf(), source })?;
+    let text = read_text(path, MOST_TEXT).map_err(|fault| ConfigError::Read { path: path.to_path_buf(), source: fault.into() })?;
     parse(path, &text).map_err(ConfigError::Invalid)
 }
 
 /// Reads the text of a `game.toml`; `file` is only named in the complaints.
 pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaints> {
-    let document = DeTable::parse(text).map_err(|error| one(syntax(file, text, &error)))?;
+    let document = document(file, text).map_err(one)?;
     let mut config = GameConfig::default();
     let known = section_names();
     let mut faults = Vec::new();
@@ -70,6 +71,8 @@ pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaints> {
                 faults.extend(apply_table(&mut config, name, table));
                 continue;
             }
+            // Those are not said any more.
+            _ if faults.len() > MOST_SAID => String::new(),
             _ if known.contains(&name) => format!("must be a section, written [{name}]"),
             _ => format!("unknown section; known sections: {}", known.join(", ")),
         };
@@ -133,7 +136,7 @@ pub fn choices(
     text: &str,
     may: impl Fn(&Setting<GameConfig>) -> bool,
 ) -> Result<Vec<(&'static Setting<GameConfig>, Value)>, Complaints> {
-    let document = DeTable::parse(text).map_err(|error| one(syntax(file, text, &error)))?;
+    let document = document(file, text).map_err(one)?;
     let mut config = GameConfig::default();
     let (mut chosen, mut faults) = (Vec::new(), Vec::new());
     for (section, table) in document.get_ref() {
@@ -169,10 +172,15 @@ pub fn choices_text<'a>(chosen: impl IntoIterator<Item = (&'a Setting<GameConfig
 
 /// Sets every entry of `table` in `config`, as keys of `section`. Returns what is wrong with those that are left out.
 pub(super) fn apply_table(config: &mut GameConfig, section: &str, table: &DeTable<'_>) -> Vec<Fault> {
+    let known: Vec<&str> = settings().iter().filter(|setting| setting.section == section).map(|setting| setting.key).collect();
+    let known = known.join(", ");
+    let mut unknown = 0;
     let mut apply = |key: &Spanned<DeString<'_>>, value: &Spanned<DeValue<'_>>| {
         let Some(setting) = setting(&format!("{section}.{}", key.get_ref())) else {
-            let known: Vec<&str> = settings().iter().filter(|setting| setting.section == section).map(|setting| setting.key).collect();
-            return Err(Fault { span: key.span(), message: format!("unknown key; known keys: {}", known.join(", ")) });
+            unknown += 1;
+            // More of them are not said.
+            let message = if unknown > MOST_SAID { String::new() } else { format!("unknown key; known keys: {known}") };
+            return Err(Fault { span: key.span(), message });
         };
         read(value.get_ref())
             .ok_or_else(|| format!("{} has the wrong type, allowed {}", value.get_ref().type_str(), setting.allowed_text()))

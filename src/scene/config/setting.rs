@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::buttons::are_buttons;
+use crate::user_file::short;
 
 /// A value of one setting.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,8 +107,10 @@ impl<C> Setting<C> {
             (Allowed::Number { .. }, Value::Number(number)) => refuse(&number, "is out of range"),
             (Allowed::Number { .. } | Allowed::Integer { .. }, Value::Integer(number)) => refuse(&number, "is out of range"),
             (Allowed::Integer { .. }, Value::Number(number)) => refuse(&number, "is no such whole number"),
-            (Allowed::Choice(_) | Allowed::Buttons | Allowed::Words(_), Value::Word(word)) => refuse(&format!("{word:?}"), "is not known"),
-            (_, Value::Word(word)) => refuse(&format!("{word:?}"), "has the wrong type"),
+            (Allowed::Choice(_) | Allowed::Buttons | Allowed::Words(_), Value::Word(word)) => {
+                refuse(&format!("{:?}", short(&word)), "is not known")
+            }
+            (_, Value::Word(word)) => refuse(&format!("{:?}", short(&word)), "has the wrong type"),
             (_, Value::Switch(on)) => refuse(&on, "has the wrong type"),
             (_, Value::Number(number)) => refuse(&number, "has the wrong type"),
             (_, Value::Integer(number)) => refuse(&number, "has the wrong type"),

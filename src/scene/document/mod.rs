@@ -1,5 +1,6 @@
 //! TOML text to a typed value, with every complaint carrying file, line and dotted key.
 
+pub mod depth;
 pub mod error;
 pub mod fault;
 
@@ -11,8 +12,12 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use crate::user_file::{brief, short};
 use error::{Complaint, Complaints};
 use fault::Fault;
+
+/// How many complaints about one file are said.
+pub const MOST_SAID: usize = 20;
 
 /// Reads a list of exactly `N` values; the TOML reader by itself drops what is too many.
 pub fn exactly<'de, D, T, const N: usize>(reader: D) -> Result<Spanned<[T; N]>, D::Error>
@@ -39,32 +44,60 @@ where
 
 /// Parses `text`, which came from `file`, into a `T`. Unknown keys are errors if `T` denies them.
 pub fn parse<T: DeserializeOwned>(file: &Path, text: &str) -> Result<T, Complaint> {
+    shallow(file, text)?;
     toml::from_str(text).map_err(|error| syntax(file, text, &error))
+}
+
+/// The document in `text`, which came from `file`.
+pub fn document<'a>(file: &Path, text: &'a str) -> Result<Spanned<DeTable<'a>>, Complaint> {
+    shallow(file, text)?;
+    DeTable::parse(text).map_err(|error| syntax(file, text, &error))
+}
+
+/// Refuses text that is nested too deeply.
+fn shallow(file: &Path, text: &str) -> Result<(), Complaint> {
+    match depth::too_deep(text) {
+        None => Ok(()),
+        Some(line) => Err(Complaint {
+            file: file.to_path_buf(),
+            line: Some(line),
+            key: String::new(),
+            problem: format!("arrays, tables and dotted keys within one another: allowed are {} levels", depth::MOST_LEVELS),
+        }),
+    }
 }
 
 /// Adds file, line and key to what the TOML reader has to say.
 pub fn syntax(file: &Path, text: &str, error: &toml::de::Error) -> Complaint {
-    let message = error.message().replace('\n', " ");
+    let message = brief(&error.message().replace('\n', " "));
     match error.span() {
-        Some(span) => complain(file, text, Fault { span, message }),
+        // What is no TOML has no keys.
+        Some(span) => complain(file, text, DeTable::parse(text).ok().as_ref().map(Spanned::get_ref), Fault { span, message }),
         None => Complaint { file: file.to_path_buf(), line: None, key: String::new(), problem: message },
     }
 }
 
 /// Adds file, line and key to a fault.
-fn complain(file: &Path, text: &str, fault: Fault) -> Complaint {
+fn complain(file: &Path, text: &str, document: Option<&DeTable<'_>>, fault: Fault) -> Complaint {
     Complaint {
         file: file.to_path_buf(),
         line: Some(line_of(text, fault.span.start)),
-        key: key_at(text, fault.span),
-        problem: fault.message,
+        key: short(&document.map(|document| key_at(document, fault.span)).unwrap_or_default()),
+        problem: brief(&fault.message),
     }
 }
 
-/// As `complain`, of every fault, in the order of their lines.
+/// As `complain`, of every fault, in the order of their lines; of many the first ones, and how many more there are.
 pub fn complain_all(file: &Path, text: &str, mut faults: Vec<Fault>) -> Complaints {
     faults.sort_by_key(|fault| fault.span.start);
-    Complaints(faults.into_iter().map(|fault| complain(file, text, fault)).collect())
+    let more = faults.len().saturating_sub(MOST_SAID);
+    let document = DeTable::parse(text).ok();
+    let document = document.as_ref().map(Spanned::get_ref);
+    let mut all: Vec<Complaint> = faults.into_iter().take(MOST_SAID).map(|fault| complain(file, text, document, fault)).collect();
+    if more > 0 {
+        all.push(Complaint { file: file.to_path_buf(), line: None, key: String::new(), problem: format!("and {more} more are wrong") });
+    }
+    Complaints(all)
 }
 
 /// The only complaint.
@@ -78,12 +111,9 @@ fn line_of(text: &str, offset: usize) -> usize {
 }
 
 /// The dotted key of the deepest entry whose key or value touches `span`; empty where there is none.
-fn key_at(text: &str, span: Range<usize>) -> String {
-    let Ok(table) = DeTable::parse(text) else {
-        return String::new();
-    };
+fn key_at(document: &DeTable<'_>, span: Range<usize>) -> String {
     let mut path = String::new();
-    descend_table(table.get_ref(), &span, &mut path);
+    descend_table(document, &span, &mut path);
     path
 }
 

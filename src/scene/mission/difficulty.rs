@@ -8,6 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::scene::config::{self, GameConfig, Value};
 use crate::scene::document::fault::Fault;
+use crate::user_file::short;
 
 /// How hard a mission is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -42,7 +43,7 @@ impl FromStr for Difficulty {
 
     fn from_str(name: &str) -> Result<Self, String> {
         let found = Difficulty::ALL.into_iter().find(|difficulty| difficulty.name() == name);
-        found.ok_or_else(|| format!("{name:?} is no difficulty; known: easy, normal, hard"))
+        found.ok_or_else(|| format!("{:?} is no difficulty; known: easy, normal, hard", short(name)))
     }
 }
 

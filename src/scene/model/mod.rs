@@ -1,5 +1,8 @@
 //! Triangle models: what a renderer or a tracer needs of a thing's shape and surface.
 
+mod accessors;
+pub mod error;
+mod gltf_file;
 pub mod import;
 pub mod shapes;
 pub mod texture;

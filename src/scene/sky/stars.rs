@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use glam::{DVec3, Vec3};
 
+use crate::user_file;
+
 /// The illuminance of a star of magnitude 0 outside the atmosphere, in lux (Allen's *Astrophysical Quantities*, 4th edition, V = 0).
 pub const MAGNITUDE_ZERO_LUX: f64 = 2.54e-6;
 /// The B−V taken for a star without one: that of the Sun.
@@ -17,6 +19,8 @@ pub const SKY_UNIT: f32 = 4e-4;
 pub const VERSION: u32 = 1;
 
 const MAGIC: &[u8; 8] = b"LRSTARS\0";
+/// The most bytes of the file: five million stars.
+const MOST_BYTES: u64 = 64 << 20;
 const HEADER: usize = 24;
 const RECORD: usize = 12;
 
@@ -54,7 +58,7 @@ pub enum StarsError {
 
 /// Reads the catalogue, from bright to faint.
 pub fn load(path: &Path) -> Result<Vec<Star>, StarsError> {
-    let bytes = std::fs::read(path).map_err(|source| StarsError::Read { path: path.to_path_buf(), source })?;
+    let bytes = user_file::read(path, MOST_BYTES).map_err(|fault| StarsError::Read { path: path.to_path_buf(), source: fault.into() })?;
     parse(&bytes).map_err(|reason| StarsError::Damaged { path: path.to_path_buf(), reason })
 }
 

@@ -5,7 +5,6 @@
 
 mod packing;
 
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use bevy::prelude::*;
@@ -17,8 +16,10 @@ use super::run::{FlightReport, RunRequest, fly_to_end, state_hash};
 use super::{Clock, SimSet, app_of, board, outcome};
 use crate::scene::config::{self, Value};
 use crate::scene::crew::Crew;
+use crate::scene::document;
 use crate::scene::mission::Difficulty;
 use crate::scene::{self, GameConfig, Scene, SceneError};
+use crate::user_file::{FileFault, brief, read_text, short};
 use packing::{MOST_BYTES, pack, unpack};
 
 pub use packing::Record;
@@ -186,11 +187,14 @@ impl Replay {
     /// Reads the text of a replay; `path` is only named in complaints.
     pub fn from_text(path: &Path, text: &str) -> Result<Replay, ReplayError> {
         let damaged = |problem: String| ReplayError::Damaged { path: path.to_path_buf(), problem };
-        let file: ReplayFile = toml::from_str(text).map_err(|_| damaged("it is no replay, or damaged".into()))?;
+        let file: ReplayFile = document::parse(path, text).map_err(|wrong| {
+            let line = wrong.line.map_or_else(String::new, |line| format!(": line {line}"));
+            damaged(format!("it is no replay, or damaged{line}: {}", wrong.problem))
+        })?;
         if file.replay != FORMAT || file.version != env!("CARGO_PKG_VERSION") {
             let made = format!(
                 "it was made by version {} (format {}), this is {} ({FORMAT})",
-                file.version,
+                short(&file.version),
                 file.replay,
                 env!("CARGO_PKG_VERSION")
             );
@@ -207,7 +211,7 @@ impl Replay {
             difficulty: file.difficulty.parse().map_err(damaged)?,
             crew: file.pilot.parse().map_err(damaged)?,
             seed: file.seed,
-            settings: settings(file.settings).map_err(damaged)?,
+            settings: settings(file.settings).map_err(|wrong| damaged(brief(&wrong)))?,
             records: unpack(&log).ok_or_else(|| damaged("its log is damaged".into()))?,
             ticks: file.ticks,
             outcome: file.outcome,
@@ -217,10 +221,8 @@ impl Replay {
 
     /// Reads a file.
     pub fn load(path: &Path) -> Result<Replay, ReplayError> {
-        let read = |source| ReplayError::Read { path: path.to_path_buf(), source };
-        let mut text = String::new();
-        let file = std::fs::File::open(path).map_err(read)?;
-        file.take(MOST_BYTES).read_to_string(&mut text).map_err(read)?;
+        let read = |fault: FileFault| ReplayError::Read { path: path.to_path_buf(), source: fault.into() };
+        let text = read_text(path, MOST_BYTES).map_err(read)?;
         Replay::from_text(path, &text)
     }
 
@@ -229,12 +231,12 @@ impl Replay {
         let scene = match named {
             Some(named) => scene::load(named)?,
             None if !scene::path(&self.scene).is_file() => {
-                return Err(ReplayError::NoScene { path: path.to_path_buf(), scene: self.scene.clone() });
+                return Err(ReplayError::NoScene { path: path.to_path_buf(), scene: short(&self.scene) });
             }
             None => scene::load(&self.scene)?,
         };
         if scene.name != self.scene {
-            Err(ReplayError::AnotherScene { path: path.to_path_buf(), flown: self.scene.clone(), named: scene.name })
+            Err(ReplayError::AnotherScene { path: path.to_path_buf(), flown: short(&self.scene), named: scene.name })
         } else if scene.fingerprint == self.fingerprint {
             Ok(scene)
         } else {
@@ -259,7 +261,7 @@ impl Replay {
         let report = fly_to_end(app.world_mut(), (self.ticks as f64 - 0.5) * step);
         let end = |hash: &str, ticks: u64, outcome: &str| format!("{outcome} after {ticks} steps, state {hash}");
         let found = end(&report.hash.to_string(), report.steps, report.outcome.map_or("undecided", super::Outcome::name));
-        let expected = end(&self.hash, self.ticks, &self.outcome);
+        let expected = end(&short(&self.hash), self.ticks, &short(&self.outcome));
         if found == expected { Ok(report) } else { Err(ReplayError::Differs { path: path.to_path_buf(), found, expected }) }
     }
 

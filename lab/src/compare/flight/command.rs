@@ -16,7 +16,7 @@ use crate::compare::random::collect;
 use crate::compare::random::command::{Keep, bar, check_terms, configuration, leave, make_folder, one, tell};
 use crate::compare::random::outcome::{Outcome, Row, summary};
 use lensrunner::judge::case::{Case, TraceError};
-use lensrunner::scene::{self, GameConfig, Scene, SceneError};
+use lensrunner::scene::{self, GameConfig, Scene};
 use lensrunner::sim::Moment;
 
 /// Draws what each pixel shows, and no light.
@@ -73,8 +73,7 @@ pub fn run(request: &FlightRequest, contestant: &Contestant, shower: &Shower) ->
     if scene.ships.is_empty() {
         return Err(TraceError::Input(format!("--flight {}: the scene has no ship to fly", request.scene)).into());
     }
-    let path = scene::path(&request.scene);
-    let text = std::fs::read_to_string(&path).map_err(|source| TraceError::from(SceneError::Read { path, source }))?;
+    let text = scene.text.to_string();
     // Before the work of which it would lose the result.
     request.collected.as_deref().map(collect::open).transpose()?;
     make_folder(&request.output)?;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use lensrunner::judge::case::{Case, TraceError};
 use lensrunner::scene::{self, GameConfig, Scene, SceneError};
+use lensrunner::user_file::{FileFault, MOST_TEXT, read_text};
 
 /// A scene with the size of its picture and T.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,8 +47,8 @@ impl CaseFile {
 
     /// Reads a file.
     pub fn load(file: &Path) -> Result<CaseFile, TraceError> {
-        let read = |source| SceneError::Read { path: file.to_path_buf(), source };
-        CaseFile::parse(file, &std::fs::read_to_string(file).map_err(read)?)
+        let read = |fault: FileFault| SceneError::Read { path: file.to_path_buf(), source: fault.into() };
+        CaseFile::parse(file, &read_text(file, MOST_TEXT).map_err(read)?)
     }
 
     /// The text of the file.

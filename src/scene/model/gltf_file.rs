@@ -1,0 +1,146 @@
+//! The file of a glTF model and the files that it names, checked before anything is made of them.
+
+use std::fmt::Write as _;
+use std::path::{Component, Path, PathBuf};
+
+use data_encoding::BASE64;
+use gltf::json;
+
+use super::accessors;
+use super::error::ModelError;
+use crate::user_file::{self, FileFault, short};
+
+/// The most bytes of a model's file and of all that it names, together.
+const MOST_BYTES: u64 = 256 << 20;
+/// The most entries of its JSON: what takes memory when it is read.
+const MOST_ENTRIES: usize = 500_000;
+
+/// A document whose accessors lie inside their buffers, and the buffers.
+pub struct GltfFile {
+    /// What it says.
+    pub document: gltf::Document,
+    /// Bytes of each buffer, at least as many as the document says.
+    pub buffers: Vec<Vec<u8>>,
+    folder: PathBuf,
+    /// Bytes that may still be read.
+    left: u64,
+}
+
+/// Reads and checks a `.glb` or `.gltf` file, and the buffers that it names.
+pub fn read(path: &Path) -> Result<GltfFile, ModelError> {
+    let unusable = |reason: String| ModelError::Unusable { path: path.to_path_buf(), reason };
+    let bytes = user_file::read(path, MOST_BYTES).map_err(|source| ModelError::Read { path: path.to_path_buf(), source })?;
+    check_outline(&bytes).map_err(unusable)?;
+    let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(&bytes).map_err(|source| match source {
+        gltf::Error::Validation(wrong) => unusable(all_wrong(&wrong)),
+        source => ModelError::Gltf { path: path.to_path_buf(), source },
+    })?;
+    let left = MOST_BYTES - bytes.len() as u64;
+    drop(bytes);
+    let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
+    accessors::check(document.as_json()).map_err(unusable)?;
+    let mut file = GltfFile { document, buffers: Vec::new(), folder, left };
+    file.read_buffers(blob).map_err(unusable)?;
+    Ok(file)
+}
+
+/// What a binary file says of its length, and how much memory its JSON would take.
+fn check_outline(bytes: &[u8]) -> Result<(), String> {
+    let word = |at: usize| bytes.get(at..at + 4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]) as usize);
+    let mut text = bytes;
+    if bytes.starts_with(b"glTF") {
+        if let Some(length) = word(8).filter(|length| *length < 20) {
+            return Err(format!("its header says {length} bytes, allowed 20 or more"));
+        }
+        // A length that is wrong is refused when it is read.
+        text = bytes.get(20..).unwrap_or_default();
+        text = &text[..word(12).unwrap_or(0).min(text.len())];
+    }
+    let (mut entries, mut is_string, mut is_escaped) = (0, false, false);
+    for byte in text {
+        if is_string {
+            is_string = is_escaped || *byte != b'"';
+            is_escaped = *byte == b'\\' && !is_escaped;
+        } else {
+            is_string = *byte == b'"';
+            entries += usize::from(matches!(byte, b'{' | b'[' | b','));
+        }
+    }
+    if entries > MOST_ENTRIES { Err(format!("its JSON has {entries} entries, allowed are {MOST_ENTRIES}")) } else { Ok(()) }
+}
+
+/// The first faults that the reader found, and how many more there are.
+fn all_wrong(wrong: &[(json::Path, json::validation::Error)]) -> String {
+    const FIRST: usize = 3;
+    let mut text = String::new();
+    for (k, (place, error)) in wrong.iter().take(FIRST).enumerate() {
+        // Writing to a text does not fail.
+        _ = write!(text, "{}{}: {error}", if k == 0 { "" } else { "; " }, short(place.as_str()));
+    }
+    if wrong.len() > FIRST {
+        _ = write!(text, "; and {} more", wrong.len() - FIRST);
+    }
+    text
+}
+
+impl GltfFile {
+    fn read_buffers(&mut self, mut blob: Option<Vec<u8>>) -> Result<(), String> {
+        let told: Vec<(Option<String>, u64)> =
+            self.document.as_json().buffers.iter().map(|buffer| (buffer.uri.clone(), buffer.byte_length.0)).collect();
+        for (k, (uri, length)) in told.into_iter().enumerate() {
+            let place = format!("buffers[{k}]");
+            let bytes = match uri {
+                Some(uri) => self.fetch(&uri).map_err(|wrong| format!("{place}.uri = {:?}: {wrong}", short(&uri)))?,
+                None => blob.take().ok_or_else(|| format!("{place} has neither a uri nor a binary part"))?,
+            };
+            if (bytes.len() as u64) < length {
+                return Err(format!("{place}.byteLength = {length}, but there are {} bytes", bytes.len()));
+            }
+            self.buffers.push(bytes);
+        }
+        Ok(())
+    }
+
+    /// The bytes at an address in the document: in itself, or in a regular file beside the model.
+    pub fn fetch(&mut self, uri: &str) -> Result<Vec<u8>, String> {
+        if let Some(data) = uri.strip_prefix("data:") {
+            let (_, text) = data.split_once(";base64,").ok_or("must hold its data as ;base64,")?;
+            return BASE64.decode(text.as_bytes()).map_err(|error| error.to_string());
+        }
+        let name = percent_decoded(uri).ok_or("is no address")?;
+        let is_beside = Path::new(&name).components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+        if name.is_empty() || name.contains([':', '\\']) || name.starts_with('/') || !is_beside {
+            return Err("allowed are data: and files beside the model, without a scheme, a leading / and ..".into());
+        }
+        let bytes = user_file::read(&self.folder.join(name), self.left).map_err(|fault| match fault {
+            FileFault::TooLong { bytes, .. } => {
+                format!("it has {bytes} bytes, allowed are {MOST_BYTES} of the model and all its files together")
+            }
+            fault => fault.to_string(),
+        })?;
+        self.left -= bytes.len() as u64;
+        Ok(bytes)
+    }
+
+    /// The bytes of a buffer's part.
+    pub fn view(&self, view: &gltf::buffer::View<'_>) -> Option<&[u8]> {
+        self.buffers.get(view.buffer().index())?.get(view.offset()..view.offset().checked_add(view.length())?)
+    }
+}
+
+/// An address with its `%20` replaced; None where that is no text.
+fn percent_decoded(uri: &str) -> Option<String> {
+    let mut bytes = Vec::with_capacity(uri.len());
+    let mut rest = uri.as_bytes();
+    while let Some((&first, after)) = rest.split_first() {
+        rest = after;
+        bytes.push(if first == b'%' {
+            let digits = std::str::from_utf8(rest.get(..2)?).ok()?;
+            rest = &rest[2..];
+            u8::from_str_radix(digits, 16).ok()?
+        } else {
+            first
+        });
+    }
+    String::from_utf8(bytes).ok()
+}
