@@ -29,7 +29,7 @@ const SEED: u64 = 5;
 const SETTLED: f64 = 2.0;
 /// Columns of the sheet.
 pub const COLUMNS: [&str; 9] =
-    ["size", "what", "round", "frames", "frames/s", "least over half a second", "share of the empty window's", "least, share", "rung"];
+    ["size", "what", "round", "frames", "frames/s", "least over half a second", "share of the empty window's", "its share", "rung"];
 
 /// What to measure.
 #[derive(Clone, Debug)]
@@ -145,7 +145,8 @@ fn write_row(sheet: &mut Sheet, [width, height]: [u32; 2], what: &str, round: u3
 fn arguments(quality: &str, [width, height]: [u32; 2], frames: u32, table: &Path) -> Vec<String> {
     let table = table.display();
     let words = format!("play --scene {SCENE} --seed {SEED} --at-once --autopilot --size {width}x{height} --frames {frames}");
-    let set = format!("--set video.quality={quality} --timings");
+    // Without a window manager a window may have no focus.
+    let set = format!("--set video.quality={quality} --set video.pause_without_focus=false --timings");
     words.split(' ').chain(set.split(' ')).map(str::to_owned).chain([table.to_string()]).collect()
 }
 
