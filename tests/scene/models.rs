@@ -238,7 +238,7 @@ fn the_triangles_of_all_nodes_are_counted_before_they_are_made() {
         "indices":{"bufferView":0,"componentType":5125},"values":{"bufferView":0}}}"#;
     let text = TRIANGLE.replace(r#"{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}"#, indices);
     let six = text.replace(r#""scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}]"#, &{
-        let nodes = vec![r#"{"mesh":0}"#; 6].join(",");
+        let nodes = [r#"{"mesh":0}"#; 6].join(",");
         format!(r#""scenes":[{{"nodes":[0,1,2,3,4,5]}}],"nodes":[{nodes}]"#)
     });
     let said = model_of(&corners(CORNERS, [0, 1, 2]), &six).expect_err("600,000");
