@@ -151,7 +151,7 @@ fn model_of(bytes: &[u8], text: &str) -> Result<Model, String> {
 /// Three positions and three indices: 36 bytes and 3 shorts. Words in capitals are put in by [`model_of`].
 const TRIANGLE: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
     "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],"materials":[{"emissiveFactor":[1,0.5,0]}],
-    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
     {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],
     "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
     "buffers":[{"byteLength":LENGTH,"uri":"DATA"}]}"#;
@@ -177,7 +177,7 @@ fn a_model_is_refused_by_place_value_and_range() {
         (r#""count":3,"type":"SCALAR""#, r#""count":0,"type":"SCALAR""#, ["accessors[1].count = 0", "1 or more"]),
         (r#""count":3,"type":"VEC3""#, r#""count":3,"type":"VEC2""#, ["attributes.POSITION = 0", "three floats"]),
         (r#""POSITION":0"#, r#""POSITION":0,"TEXCOORD_0":1"#, ["attributes.TEXCOORD_0 = 1", "two floats"]),
-        (r#""POSITION":0"#, r#""NORMAL":0"#, ["attributes.POSITION", "missing"]),
+        (r#""POSITION":0"#, r#""NORMAL":0"#, ["attributes[\"POSITION\"]", "Missing data"]),
         (r#""byteOffset":36"#, r#""byteOffset":40"#, ["bufferViews[1]: 6 bytes from 40 on", "the 42 of its buffer"]),
         (r#""byteOffset":36"#, r#""byteOffset":18446744073709551615"#, ["bufferViews[1]: 6 bytes from 18446744073709551615", "42"]),
         (r#""byteLength":LENGTH"#, r#""byteLength":48"#, ["buffers[0].byteLength = 48", "42 bytes"]),
@@ -238,7 +238,7 @@ fn the_triangles_of_all_nodes_are_counted_before_they_are_made() {
         "indices":{"bufferView":0,"componentType":5125},"values":{"bufferView":0}}}"#;
     let text = TRIANGLE.replace(r#"{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}"#, indices);
     let six = text.replace(r#""scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}]"#, &{
-        let nodes = vec![r#"{"mesh":0}"#; 6].join(",");
+        let nodes = [r#"{"mesh":0}"#; 6].join(",");
         format!(r#""scenes":[{{"nodes":[0,1,2,3,4,5]}}],"nodes":[{nodes}]"#)
     });
     let said = model_of(&corners(CORNERS, [0, 1, 2]), &six).expect_err("600,000");

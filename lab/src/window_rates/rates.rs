@@ -39,7 +39,7 @@ pub fn rates(rows: &[Row], settled: f64) -> Option<Rates> {
     let rows: Vec<&Row> = rows.iter().filter(|row| row.seconds >= first).collect();
     let spans: Vec<(f64, usize)> = rows.windows(2).map(|two| (two[1].seconds - two[0].seconds, two[1].rung)).collect();
     let whole: f64 = spans.iter().map(|(span, _)| span).sum();
-    if !(whole > 0.0) {
+    if whole.is_nan() || whole <= 0.0 {
         return None;
     }
     // Over at least half a second, so that long frames count whole.

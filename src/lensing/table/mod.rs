@@ -177,7 +177,7 @@ impl Table {
             return Err(TableError::Layout(path()));
         }
         let values: Vec<f32> = bytes[HEADER..whole - 4].as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b)).collect();
-        if let Some(place) = values.iter().position(|value| !(value.abs() <= MOST_VALUE)) {
+        if let Some(place) = values.iter().position(|value| value.is_nan() || value.abs() > MOST_VALUE) {
             return Err(TableError::Value(path(), place, values[place]));
         }
         Ok(Table { scheme: wanted, size, values })

@@ -48,6 +48,9 @@ fn offset(bytes: Option<USize64>) -> u64 {
     bytes.unwrap_or_default().0
 }
 
+/// Kinds of elements that an accessor may hold.
+type Types<'a> = &'a [(Type, ComponentType)];
+
 fn types(accessor: &Accessor) -> Option<(Type, ComponentType)> {
     match (accessor.type_.as_ref(), accessor.component_type.as_ref()) {
         (Checked::Valid(shape), Checked::Valid(component)) => Some((*shape, component.0)),
@@ -103,7 +106,7 @@ fn check_accessor(root: &Root, accessor: &Accessor) -> Result<(), String> {
 
 fn check_primitive(root: &Root, primitive: &Primitive) -> Result<(), String> {
     use ComponentType::{F32, U8, U16, U32};
-    let is = |index: Index<Accessor>, name: &str, allowed: &[(Type, ComponentType)], words: &str| match root.get(index) {
+    let is = |index: Index<Accessor>, name: &str, allowed: Types<'_>, words: &str| match root.get(index) {
         Some(accessor) if types(accessor).is_some_and(|found| allowed.contains(&found)) => Ok(accessor),
         _ => Err(format!("{name} = {}: the accessor must hold {words}", index.value())),
     };
@@ -112,7 +115,7 @@ fn check_primitive(root: &Root, primitive: &Primitive) -> Result<(), String> {
     if positions > 3 * MOST_TRIANGLES as u64 {
         return Err(format!("attributes.POSITION: {positions} vertices, allowed {}", 3 * MOST_TRIANGLES));
     }
-    let others: [(Semantic, &str, &[(Type, ComponentType)], &str); 2] = [
+    let others: [(Semantic, &str, Types, &str); 2] = [
         (Semantic::Normals, "attributes.NORMAL", &[(Type::Vec3, F32)], "three floats (VEC3, 5126)"),
         (
             Semantic::TexCoords(0),

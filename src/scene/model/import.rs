@@ -134,7 +134,8 @@ fn append(model: &mut Model, primitive: &gltf::Primitive<'_>, buffers: &[Vec<u8>
     let positions = reader.read_positions().ok_or("has no positions")?;
     let positions: Vec<Vec3> = positions.map(|position| place.transform_point3(Vec3::from(position))).collect();
     let most = *SIZES.end();
-    if let Some((k, far)) = positions.iter().enumerate().find(|(_, position)| !(position.abs().max_element() <= most)) {
+    let is_far = |position: &Vec3| position.to_array().iter().any(|x| x.is_nan() || x.abs() > most);
+    if let Some((k, far)) = positions.iter().enumerate().find(|(_, position)| is_far(position)) {
         return Err(format!("vertex {k} is at {far}, allowed are coordinates from -{most} to {most}"));
     }
     let turn = Mat3::from_mat4(place).inverse().transpose();
