@@ -21,7 +21,7 @@ use crate::render::aurora::{AuroraAnimation, AuroraFrame, planet_history};
 use crate::render::disk::Disk;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::types::placed::OWN;
-use crate::render::instances::{DrawnObject, Motion, Placed, View, instances_of};
+use crate::render::instances::{DrawnObject, Motion, Placed, StandIn, View, instances_of};
 use crate::render::method::Method;
 use crate::render::models::coarse::stand_ins;
 use crate::render::models::{ModelRange, ModelSet};
@@ -57,7 +57,7 @@ const MOST_MOVED: f64 = 0.25;
 struct LevelsOfDetail {
     model: ModelRange,
     coarse: ModelRange,
-    stand_ins: Vec<(f64, ModelRange)>,
+    stand_ins: Vec<StandIn>,
 }
 
 impl Stage {
@@ -97,13 +97,15 @@ impl Stage {
             .iter()
             .enumerate()
             .map(|(number, model)| {
-                let stand_ins = match globe {
-                    Some((of, planet)) if of == number => planet.stand_ins(model),
+                let is_globe = globe.is_some_and(|(of, _)| of == number);
+                let coarser = match globe {
+                    Some((_, planet)) if is_globe => planet.stand_ins(model),
                     _ => stand_ins(model).into_iter().map(|coarser| (MOST_MOVED / coarser.moved, coarser.model)).collect(),
                 };
                 let fine = add(model);
-                let stand_ins: Vec<_> = stand_ins.iter().map(|(below, model)| (*below, add(model))).collect();
-                LevelsOfDetail { model: fine, coarse: stand_ins.first().map_or(fine, |(_, coarsest)| *coarsest), stand_ins }
+                let stand_in = |(below, model): &(f64, Model)| StandIn { below: *below, is_closed: is_globe, model: add(model) };
+                let stand_ins: Vec<StandIn> = coarser.iter().map(stand_in).collect();
+                LevelsOfDetail { model: fine, coarse: stand_ins.first().map_or(fine, |coarsest| coarsest.model), stand_ins }
             })
             .collect();
         let radii: Vec<f64> = assembly.models.iter().map(|model| f64::from(model.radius())).collect();

@@ -233,6 +233,37 @@ pub const PRODUCTS: &[Product] = &[
         seconds: [400.0, 20.0],
     },
     Product {
+        name: "dial",
+        runs: &[lab("chart dial --check --moments 200 --size 640x360 -o {}")],
+        quick: &[lab("chart dial --check --moments 2 --size 160x90 -o {}")],
+        folder: "lab",
+        files: &["dial-check.csv", "dial.svg", "dial.png"],
+        grows: false,
+        sources: &[DRAWN, &["lab/src/dial", "tables/quality.csv"]],
+        seconds: [900.0, 15.0],
+    },
+    Product {
+        name: "dial-levels",
+        runs: &[lab("chart dial --levels --moments 6 --size 640x360 -o {}")],
+        quick: &[lab("chart dial --levels --moments 1 --size 160x90 -o {}")],
+        folder: "lab",
+        files: &["dial-levels.csv", "dial-levels.svg", "dial-levels.png"],
+        grows: false,
+        sources: &[DRAWN, &["lab/src/dial", "tables/quality.csv"]],
+        seconds: [120.0, 15.0],
+    },
+    Product {
+        name: "window",
+        runs: &[lab("chart window --size 1280x720 --frames 300 --rounds 2 -o {}")],
+        // It needs a display.
+        quick: &[],
+        folder: "lab",
+        files: &["window.csv", "window-1280x720.png"],
+        grows: false,
+        sources: &[DRAWN, &["lab/src/window_rates", "src/play", "tables/quality.csv"]],
+        seconds: [240.0, 0.0],
+    },
+    Product {
         name: "frame-rationed",
         runs: &[
             table("chart frame --scene aurora-side,aurora-below,aurora-orbit,aurora-lensed,chase,disk --frames 12", "frames.txt"),

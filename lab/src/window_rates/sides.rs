@@ -1,4 +1,4 @@
-//! Moments of the chase on a rung beside everything as configured, one below the other.
+//! Moments of the chase on a rung beside everything as configured, one below the other: the part about the player's ship.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -20,7 +20,9 @@ pub fn draw(rung: usize, size: [u32; 2], seed: u64, folder: &Path, out: &mut imp
     let rung = &rungs[rung.clamp(1, rungs.len()) - 1];
     let mut bench = Bench::new(size)?;
     let [width, height] = size;
-    let mut picture = image::RgbImage::new(2 * width, MOMENTS.len() as u32 * height);
+    // Half as wide and high, from here on.
+    let ([left, top], [wide, high]) = ([width / 4, 2 * height / 5], [width / 2, height / 2]);
+    let mut picture = image::RgbImage::new(2 * wide, MOMENTS.len() as u32 * high);
     for (row, at) in MOMENTS.into_iter().enumerate() {
         let shown = bench.show(&Case { scene: SCENE.into(), at, seed, turn: [0.0; 2] })?;
         let finest = bench.take(&shown, &shown.finest)?;
@@ -28,9 +30,10 @@ pub fn draw(rung: usize, size: [u32; 2], seed: u64, folder: &Path, out: &mut imp
         let error = bench.error(&finest, &taken);
         _ = writeln!(out, "T = {at}: {}; FLIP {error:.3}, predicted at most {:.3}", rung.says(), rung.error);
         for (column, side) in [finest, taken].into_iter().enumerate() {
-            for (k, pixel) in side.bytes.chunks_exact(4).enumerate() {
-                let (x, y) = (k as u32 % width, k as u32 / width);
-                picture.put_pixel(x + column as u32 * width, y + row as u32 * height, image::Rgb([pixel[0], pixel[1], pixel[2]]));
+            for (x, y) in (0..high).flat_map(|y| (0..wide).map(move |x| (x, y))) {
+                let at = 4 * ((y + top) * width + x + left) as usize;
+                let pixel = [side.bytes[at], side.bytes[at + 1], side.bytes[at + 2]];
+                picture.put_pixel(x + column as u32 * wide, y + row as u32 * high, image::Rgb(pixel));
             }
         }
     }

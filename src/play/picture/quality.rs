@@ -16,7 +16,7 @@ use crate::scene::GameConfig;
 /// The greatest error of `medium`, in mean FLIP: a look for differences finds them.
 pub const MEDIUM: f64 = 0.04;
 /// The greatest error of `low`: they are seen at once.
-pub const LOW: f64 = 0.2;
+pub const LOW: f64 = 0.3;
 /// Frames a second that are held where the display does not tell its rate.
 const USUAL_RATE: f64 = 60.0;
 /// A frame within this share of the time to hold may have waited for the screen.

@@ -42,6 +42,18 @@ pub enum Motion<'a> {
     Flying(&'a History),
 }
 
+/// A coarse model for small images.
+#[derive(Clone, Copy, Debug)]
+pub struct StandIn {
+    /// For images up to this width, in pixels, where half a pixel is allowed, and in proportion.
+    pub below: f64,
+    /// Its surface is as closed as that of the full one. Others are not for thin images, whose light is summed triangle by triangle: what
+    /// lies behind a gap would count.
+    pub is_closed: bool,
+    /// The model.
+    pub model: ModelRange,
+}
+
 /// An object to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnObject<'a> {
@@ -49,8 +61,8 @@ pub struct DrawnObject<'a> {
     pub model: ModelRange,
     /// Coarse model for images a few pixels wide.
     pub coarse: ModelRange,
-    /// Coarse models, the coarsest first: each for images up to a width in pixels where half a pixel is allowed, and in proportion.
-    pub stand_ins: &'a [(f64, ModelRange)],
+    /// Coarse models, the coarsest first.
+    pub stand_ins: &'a [StandIn],
     /// How it moves.
     pub motion: Motion<'a>,
     /// Farthest point of the object from its centre, in r_s.
@@ -66,10 +78,13 @@ pub struct DrawnObject<'a> {
 impl DrawnObject<'_> {
     /// What is drawn of it in an image `width` pixels wide: the first that may stand for it in one so narrow, or itself.
     fn model_for(&self, width: f64, settings: &Settings) -> ModelRange {
+        if width < settings.coarse_below {
+            return self.coarse;
+        }
         let allowed = f64::from(settings.pixel_error) / 0.5;
-        let stand_ins = self.stand_ins.iter().map(|(below, model)| (allowed * below, *model));
-        let models = [(settings.coarse_below, self.coarse)].into_iter().chain(stand_ins);
-        models.into_iter().find(|(below, _)| width < *below).map_or(self.model, |(_, model)| model)
+        let is_thin = width < settings.thin_below;
+        let fits = |stand_in: &&StandIn| width < allowed * stand_in.below && (stand_in.is_closed || !is_thin);
+        self.stand_ins.iter().find(fits).map_or(self.model, |stand_in| stand_in.model)
     }
 }
 

@@ -1,5 +1,5 @@
-//! The rungs from the finest picture to the fastest: each turns one knob further than the one before, that which adds the least error for
-//! the time it saves.
+//! The rungs from the finest picture to the fastest: each turns one knob a step further than the one before, that which adds the least
+//! error for the time it saves.
 //!
 //! Errors of several knobs add up: a bound. So do the shares of time that they save, since they work on different parts of a frame; but
 //! what is done pixel by pixel saves less where there are fewer pixels. `lab/run chart dial --check` holds both against measurements.
@@ -48,16 +48,17 @@ pub fn ladder(prices: &Prices, class: SceneClass) -> Vec<Rung> {
     let mut rungs = vec![Rung::at(prices, class, [0; Knob::ALL.len()])];
     loop {
         let now = rungs[rungs.len() - 1];
-        let further = Knob::ALL.into_iter().enumerate().flat_map(|(k, knob)| {
-            (now.steps[k] + 1..knob.steps()).map(move |step| {
+        // Of each knob the next step that saves anything.
+        let further = Knob::ALL.into_iter().enumerate().filter_map(|(k, knob)| {
+            let step_to = |step| {
                 let mut steps = now.steps;
                 steps[k] = step;
                 Rung::at(prices, class, steps)
-            })
+            };
+            (now.steps[k] + 1..knob.steps()).map(step_to).find(|rung| now.time - rung.time >= LEAST_SAVED * now.time)
         });
         let price = |rung: &Rung| (rung.error - now.error).max(0.0) / (now.time - rung.time);
-        let saving = further.filter(|rung| now.time - rung.time >= LEAST_SAVED * now.time);
-        match saving.min_by(|a, b| price(a).total_cmp(&price(b))) {
+        match further.min_by(|a, b| price(a).total_cmp(&price(b))) {
             Some(next) => rungs.push(next),
             None => return rungs,
         }

@@ -296,7 +296,7 @@ config! {
         pause_without_focus: bool = true, Switch, "", "the flight pauses when the window loses its focus";
         reduced_motion: bool = false, Switch, "", "the camera does not sway or glide";
         frame_limit: u32 = 0u32, integer(0, 1000), "frames per second", "no more frames than this; 0 is no limit";
-        quality: String = "high", Choice(&["automatic", "low", "medium", "high"]), "", "how much is drawn; high: as the sections above say; automatic: what holds the rate";
+        quality: String = "automatic", Choice(&["automatic", "low", "medium", "high"]), "", "how much is drawn; high: as the sections above say; automatic: what holds the rate";
         held_rate: u32 = 0u32, integer(0, 1000), "frames per second", "rate that automatic quality holds; 0 is the display's";
     }
     /// Sound.
