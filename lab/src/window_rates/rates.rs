@@ -35,6 +35,8 @@ pub fn read(sheet: &Sheet) -> Option<Vec<Row>> {
 /// The rates from `settled` seconds after the first row on; None for less than two rows.
 pub fn rates(rows: &[Row], settled: f64) -> Option<Rates> {
     const HALF: f64 = 0.5;
+    // Of sums of seconds.
+    const ROUNDING: f64 = 1e-9;
     let first = rows.first()?.seconds + settled;
     let rows: Vec<&Row> = rows.iter().filter(|row| row.seconds >= first).collect();
     let spans: Vec<(f64, usize)> = rows.windows(2).map(|two| (two[1].seconds - two[0].seconds, two[1].rung)).collect();
@@ -47,7 +49,7 @@ pub fn rates(rows: &[Row], settled: f64) -> Option<Rates> {
         let mut seconds = 0.0;
         let taken = spans[k..].iter().position(|(span, _)| {
             seconds += span;
-            seconds >= HALF
+            seconds >= HALF - ROUNDING
         })?;
         Some((taken + 1) as f64 / seconds)
     };
