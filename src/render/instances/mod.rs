@@ -42,6 +42,9 @@ pub enum Motion<'a> {
     Flying(&'a History),
 }
 
+/// Where no more than this is allowed, in pixels, stand-ins that are not closed are not drawn.
+const GAPING_ERROR: f32 = 1.0;
+
 /// A coarse model for small images.
 #[derive(Clone, Copy, Debug)]
 pub struct StandIn {
@@ -83,7 +86,9 @@ impl DrawnObject<'_> {
         }
         let allowed = f64::from(settings.pixel_error) / 0.5;
         let is_thin = width < settings.thin_below;
-        let fits = |stand_in: &&StandIn| width < allowed * stand_in.below && (stand_in.is_closed || !is_thin);
+        // Clustered ones open gaps and merge sides: the judge sees that at the game's own budget.
+        let may_gape = !is_thin && settings.pixel_error > GAPING_ERROR;
+        let fits = |stand_in: &&StandIn| width < allowed * stand_in.below && (stand_in.is_closed || may_gape);
         self.stand_ins.iter().find(fits).map_or(self.model, |stand_in| stand_in.model)
     }
 }

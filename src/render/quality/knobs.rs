@@ -9,7 +9,7 @@ pub enum Knob {
     Resolution,
     /// Allowed error of points.
     PixelError,
-    /// Width from which images of bodies of order 2 and 3 are drawn, and whether the disk has them.
+    /// Width from which images of bodies of order 2 and 3 are drawn.
     SecondImages,
     /// Stars, down to which light.
     Stars,
@@ -55,7 +55,7 @@ impl Knob {
         match self {
             Knob::Resolution => RESOLUTIONS.len() as u8,
             Knob::PixelError => PIXEL_ERRORS.len() as u8,
-            Knob::SecondImages => LEAST_WIDTHS.len() as u8 + 1,
+            Knob::SecondImages => LEAST_WIDTHS.len() as u8,
             Knob::Stars => MAGNITUDES.len() as u8,
             Knob::Outlines | Knob::Bloom => 2,
         }
@@ -70,11 +70,8 @@ impl Knob {
         match self {
             Knob::Resolution => format!("{:.0} % of the width", 100.0 * RESOLUTIONS[k]),
             Knob::PixelError => format!("{} times the error", PIXEL_ERRORS[k]),
-            Knob::SecondImages => match LEAST_WIDTHS.get(k) {
-                Some(width) if width.is_finite() => format!("from {width} px on"),
-                Some(_) => "of the disk alone".into(),
-                None => "none".into(),
-            },
+            Knob::SecondImages if LEAST_WIDTHS[k].is_finite() => format!("from {} px on", LEAST_WIDTHS[k]),
+            Knob::SecondImages => "of the disk alone".into(),
             Knob::Stars => format!("to magnitude {}", MAGNITUDES[k]),
             Knob::Outlines => "not smoothed".into(),
             Knob::Bloom => "none".into(),
@@ -102,10 +99,7 @@ impl Knob {
                 settings.star_sigma = (settings.star_sigma * RESOLUTIONS[k]).max(LEAST_SIGMA.min(settings.star_sigma));
             }
             Knob::PixelError => settings.pixel_error *= PIXEL_ERRORS[k],
-            Knob::SecondImages => match LEAST_WIDTHS.get(k) {
-                Some(width) => settings.least_width = settings.least_width.max(*width),
-                None => settings.orders = 1,
-            },
+            Knob::SecondImages => settings.least_width = settings.least_width.max(LEAST_WIDTHS[k]),
             Knob::Stars => settings.faintest_star = settings.faintest_star.max(10f32.powf(-0.4 * MAGNITUDES[k])),
             Knob::Outlines => settings.smooth &= k == 0,
             Knob::Bloom if k > 0 => settings.bloom = 0.0,
