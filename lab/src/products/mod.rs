@@ -2,7 +2,7 @@
 //!
 //! - [`table`]: the list. A new chart needs a row there.
 //! - [`made`]: what is known of a product as it lies in a folder: commit, machine, driver, command.
-//! - [`standing`]: whether the code that it shows has changed since.
+//! - [`mod@standing`]: whether the code that it shows has changed since.
 //! - [`make`]: makes them anew.
 
 mod git;

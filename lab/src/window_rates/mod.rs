@@ -2,7 +2,7 @@
 //! `lensrunner-lab chart window`.
 //!
 //! - [`empty`]: the empty window, in a process of its own.
-//! - [`rates`]: frame rates from the times of frames.
+//! - [`mod@rates`]: frame rates from the times of frames.
 //! - [`sides`]: what the most used rung looks like beside the finest.
 
 pub mod empty;
