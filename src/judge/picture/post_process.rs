@@ -22,8 +22,8 @@ struct Canvas {
 
 /// Levels of the picture for bloom and metering: a quarter, and from there halvings.
 const LEVELS: usize = 5;
-/// Pixels across the level that is metered, at most.
-const METERED_WIDTH: usize = 80;
+/// Cells across the picture that is metered.
+const METERED_WIDTH: f32 = 80.0;
 /// Times that all levels together are softened.
 const SOFTENED: usize = 2;
 /// What a level and all coarser ones have of the glow, beside the next finer one.
@@ -73,8 +73,7 @@ pub fn post_process(light: &[[f32; 3]], size: [u32; 2], how: &PostProcess) -> Ve
             break;
         }
     }
-    let metered = (0..levels.len()).find(|level| size[0] >> (2 + level) <= METERED_WIDTH).unwrap_or(levels.len() - 1);
-    let exposure = exposure(&levels[metered], how);
+    let exposure = exposure(&levels, how);
     for level in (1..levels.len()).rev() {
         let wide = levels[level].four_taps(levels[level - 1].size, 0.5);
         for (pixel, glow) in levels[level - 1].light.iter_mut().zip(wide.light) {
@@ -97,8 +96,18 @@ pub fn post_process(light: &[[f32; 3]], size: [u32; 2], how: &PostProcess) -> Ve
     bytes
 }
 
-/// What brings the mean light, weighted by itself (what shines is metered, not the black between), to the key.
-fn exposure(level: &Canvas, how: &PostProcess) -> f32 {
+/// What brings the mean light, weighted by itself (what shines is metered, not the black between), to the key. It is read off the two
+/// levels between whose widths `METERED_WIDTH` lies, as a level of just that width would have it.
+fn exposure(levels: &[Canvas], how: &PostProcess) -> f32 {
+    let width = |level: usize| levels[level].size[0] as f32;
+    let finer = (0..levels.len()).rev().find(|level| width(*level) >= METERED_WIDTH).unwrap_or(0);
+    let octaves = (width(finer) / METERED_WIDTH).log2().clamp(0.0, 1.0);
+    let [fine, coarse] = [finer, (finer + 1).min(levels.len() - 1)].map(|level| metered(&levels[level]).ln());
+    (how.key / (fine + octaves * (coarse - fine)).exp()).clamp(how.exposure_range[0], how.exposure_range[1])
+}
+
+/// The mean light of a level, weighted by itself.
+fn metered(level: &Canvas) -> f32 {
     let mut sum = Vec2::ZERO;
     for rgb in &level.light {
         let light = rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722));
@@ -106,8 +115,7 @@ fn exposure(level: &Canvas, how: &PostProcess) -> f32 {
             sum += Vec2::new(light * light, light);
         }
     }
-    let metered = sum.x / sum.y.max(1e-9);
-    (how.key / metered.max(1e-9)).clamp(how.exposure_range[0], how.exposure_range[1])
+    (sum.x / sum.y.max(1e-9)).max(1e-9)
 }
 
 /// A filmic curve: straight in the dark, a soft shoulder; colours lose their hue only as they come near to white.

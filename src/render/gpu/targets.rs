@@ -5,8 +5,8 @@ use crate::render::gpu::layout::{DEPTH_FORMAT, HDR_FORMAT, SIGNED_FORMAT};
 /// Format of the layers of a picture.
 pub const LAYERS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
-/// Texels across the picture that is metered, at most. The finer the picture, the brighter is a star's spot and the smaller: in cells of
-/// about the same angle it counts the same at every resolution.
+/// Cells across the picture that is metered; as in shaders/post_process/exposure.wgsl. The finer the picture, the brighter is a star's spot
+/// and the smaller: in cells of the same angle it counts the same at every resolution.
 const METERED_WIDTH: u32 = 80;
 
 /// Levels of the picture for bloom and metering: a quarter, and from there halvings. A half is not among them: it would cost more than all
@@ -92,10 +92,12 @@ impl Targets {
         }
     }
 
-    /// The level of the bloom that is metered: the first that is no more than `METERED_WIDTH` texels wide, or the smallest there is.
-    pub fn meter_level(&self) -> usize {
-        let wide = |level: &usize| self.size[0] >> (2 + level) > METERED_WIDTH;
-        (0..self.bloom.len() - 1).find(|level| !wide(level)).unwrap_or(self.bloom.len() - 1)
+    /// The two levels of the bloom that are metered: the coarsest that is at least `METERED_WIDTH` texels wide, and the next.
+    pub fn metered_levels(&self) -> [usize; 2] {
+        let last = self.bloom.len() - 1;
+        let wide = |level: &usize| self.bloom[*level].texture().width() >= METERED_WIDTH;
+        let finer = (0..=last).rev().find(wide).unwrap_or(0);
+        [finer, (finer + 1).min(last)]
     }
 
     /// The targets of the layers.

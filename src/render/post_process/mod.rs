@@ -85,7 +85,7 @@ impl PostProcess {
         let fragment = ShaderStages::FRAGMENT;
         let sampled_layout = layout(device, "sampled", fragment, &[Slot::Texture, Slot::Sampler]);
         let thin_layout = layout(device, "thin", fragment, &[Slot::Texture, Slot::Texture]);
-        let meter_layout = layout(device, "meter", ShaderStages::COMPUTE, &[Slot::Texture, Slot::Write]);
+        let meter_layout = layout(device, "meter", ShaderStages::COMPUTE, &[Slot::Texture, Slot::Texture, Slot::Write]);
         let tone_map_layout = layout(device, "tone map", fragment, &[Slot::Texture, Slot::Sampler, Slot::Texture, Slot::Uniform]);
         let pass = |label, pass, fragment, layout: &wgpu::BindGroupLayout, format, blend| {
             let shader = module(device, label, pass);
@@ -141,6 +141,7 @@ impl PostProcess {
         self.flashes.resize(device, targets, &self.sampler, &self.adapted);
         let display = display(device, targets.size, self.output);
         let outlines = outlines(gpu, targets.size);
+        let [finer, coarser] = targets.metered_levels();
         let views = std::iter::once(&targets.picture).chain(&targets.bloom).chain([&targets.glow]);
         self.groups = Some(Groups {
             thin: bind(device, "thin", &self.thin_layout, &[TextureView(&targets.thin), TextureView(&targets.thin_signed)]),
@@ -151,7 +152,7 @@ impl PostProcess {
                 device,
                 "meter",
                 &self.meter_layout,
-                &[TextureView(&targets.bloom[targets.meter_level()]), adaptation.as_entire_binding()],
+                &[TextureView(&targets.bloom[finer]), TextureView(&targets.bloom[coarser]), adaptation.as_entire_binding()],
             ),
             tone_map: bind(
                 device,
