@@ -116,6 +116,9 @@ pub struct ChartDialArgs {
     /// Measures the levels high, medium, low and the fastest beside everything at its finest, at moments of the chase and three scenes.
     #[arg(long, conflicts_with = "check")]
     levels: bool,
+    /// Compares each frame of four scenes with the one before, with the rungs that a governor goes through and without; --moments frames.
+    #[arg(long, conflicts_with_all = ["check", "levels"])]
+    moving: bool,
 }
 
 /// What the dev overlay costs the processor in a frame, page by page, beside a frame without it: a table.
@@ -344,6 +347,11 @@ fn run_chart_dial(args: ChartDialArgs) -> ExitCode {
         output.growing_sheet("dial-levels", |keep| dial::levels::measure(&request, said, keep)).and_then(|sheet| {
             println!("{}", dial::levels::verdict(&sheet));
             dial::draw::draw_levels(&sheet, &output).map(|files| chart::announce(&files))
+        })
+    } else if args.moving {
+        output.growing_sheet("dial-moving", |keep| dial::moving::measure(&request, said, keep)).map(|sheet| {
+            println!("{}", dial::moving::verdict(&sheet));
+            chart::announce(&[output.csv("dial-moving")]);
         })
     } else if args.check {
         output.growing_sheet("dial-check", |keep| dial::check::measure(&request, said, keep)).and_then(|sheet| {

@@ -7,19 +7,20 @@
 @group(1) @binding(1) var vertex_table: texture_2d<u32>;
 @group(1) @binding(2) var edge_table: texture_2d<u32>;
 @group(1) @binding(3) var triangle_table: texture_2d<u32>;
-/// Chunks of 64 threads of one instance, filled up to the size of the dispatch with NO_INSTANCE.
-@group(1) @binding(4) var<storage, read> chunks: array<Chunk>;
+/// Chunks of 64 threads of one instance, two a texel, filled up to the size of the dispatch with NO_INSTANCE.
+@group(1) @binding(4) var chunk_table: texture_2d<u32>;
+// Seven storage buffers and the arguments make eight: WebGPU guarantees no more to a stage.
 @group(1) @binding(5) var<storage, read_write> seen: array<SeenVertex>;
-/// Position at emission of each model vertex by the axis, as `Answer.by_axis`; w: VERTEX_*.
-@group(1) @binding(6) var<storage, read_write> emitted: array<vec4<f32>>;
-/// x: level (bits of a u32), y: EDGE_* (bits of a u32), z: where the axis cuts, as a fraction, w: error in radians.
-@group(1) @binding(7) var<storage, read_write> edge_states: array<vec4<f32>>;
+/// First of each model vertex (from `ids.z` of its instance on) the position at emission by the axis, as `Answer.by_axis`; w: VERTEX_*.
+/// Then of each model edge (from `ids.w` on) x: level (bits of a u32), y: EDGE_* (bits of a u32), z: where the axis cuts, as a fraction,
+/// w: error in radians.
+@group(1) @binding(6) var<storage, read_write> states: array<vec4<f32>>;
 /// Two queues of `capacity.z` pieces each: one is split into the other.
-@group(1) @binding(8) var<storage, read_write> pieces: array<Piece>;
-@group(1) @binding(9) var<storage, read_write> work: array<WorkItem>;
-@group(1) @binding(10) var<storage, read_write> indices: array<u32>;
-@group(1) @binding(11) var<storage, read_write> thin: array<ThinVertex>;
-@group(1) @binding(12) var<storage, read_write> counters: Counters;
+@group(1) @binding(7) var<storage, read_write> pieces: array<Piece>;
+@group(1) @binding(8) var<storage, read_write> work: array<WorkItem>;
+@group(1) @binding(9) var<storage, read_write> indices: array<u32>;
+@group(1) @binding(10) var<storage, read_write> thin: array<ThinVertex>;
+@group(1) @binding(11) var<storage, read_write> counters: Counters;
 
 /// Where a texel of a table is.
 fn table_place(texel: u32) -> vec2<u32> {
@@ -45,6 +46,12 @@ fn model_edge(number: u32) -> vec4<u32> {
 fn model_triangle(number: u32) -> ModelTriangle {
     return ModelTriangle(textureLoad(triangle_table, table_place(2u * number), 0),
         textureLoad(triangle_table, table_place(2u * number + 1u), 0));
+}
+
+fn chunk_of(number: u32) -> Chunk {
+    let two = textureLoad(chunk_table, table_place(number / 2u), 0);
+    let words = select(two.xy, two.zw, (number & 1u) == 1u);
+    return Chunk(words.x, words.y);
 }
 
 struct Counters {

@@ -2,7 +2,7 @@
 
 #import lensrunner::chosen::worldlines::{is_rim, MAY_FOLD}
 #import lensrunner::geometry::bindings::{
-    ALONE, chunks, EDGE_CUT, EDGE_LIMB, edge_states, EDGE_UNSEEN, emitted, model_edge, model_position, NO_INSTANCE, seen, VERTEX_ON_AXIS,
+    ALONE, chunk_of, EDGE_CUT, EDGE_LIMB, EDGE_UNSEEN, model_edge, model_position, NO_INSTANCE, seen, states, VERTEX_ON_AXIS,
     VERTEX_PLAIN, VERTEX_UNSEEN,
 }
 #import lensrunner::geometry::clip::pixel_fineness
@@ -18,7 +18,7 @@
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;
-    let chunk = chunks[index];
+    let chunk = chunk_of(index);
     if chunk.instance == NO_INSTANCE {
         return;
     }
@@ -28,18 +28,18 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         return;
     }
     let edge = model_edge(instance.vertices.z + local);
-    let a = emitted[instance.ids.z + edge.x];
-    let b = emitted[instance.ids.z + edge.y];
+    let a = states[instance.ids.z + edge.x];
+    let b = states[instance.ids.z + edge.y];
     let slot = instance.ids.w + local;
     if a.w == VERTEX_UNSEEN || b.w == VERTEX_UNSEEN {
-        edge_states[slot] = vec4<f32>(bitcast<f32>(1u), bitcast<f32>(EDGE_UNSEEN), 0.0, 0.0);
+        states[slot] = vec4<f32>(bitcast<f32>(1u), bitcast<f32>(EDGE_UNSEEN), 0.0, 0.0);
         return;
     }
     let from_seen = seen[instance.ids.z + edge.x];
     let to_seen = seen[instance.ids.z + edge.y];
     let cut = cut_by_axis(instance, a, b, from_seen.apparent.xyz);
     if cut >= 0.0 {
-        edge_states[slot] = vec4<f32>(bitcast<f32>(1u), bitcast<f32>(EDGE_CUT), cut, 0.0);
+        states[slot] = vec4<f32>(bitcast<f32>(1u), bitcast<f32>(EDGE_CUT), cut, 0.0);
         return;
     }
     var ends: Ends;
@@ -54,7 +54,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     ends.limb = is_rim(instance, alone, ends.body_a, ends.body_b)
         || (!alone && MAY_FOLD && on_limb(instance, edge, from_seen.leaving.xyz, to_seen.leaving.xyz, offset_of(a.xyz)));
     let division = divide(instance, ends);
-    edge_states[slot] = vec4<f32>(bitcast<f32>(division.level), bitcast<f32>(select(0u, EDGE_LIMB, ends.limb)), 0.0, division.error);
+    states[slot] = vec4<f32>(bitcast<f32>(division.level), bitcast<f32>(select(0u, EDGE_LIMB, ends.limb)), 0.0, division.error);
 }
 
 /// An edge of a model, with what the stage of vertices found of its ends.

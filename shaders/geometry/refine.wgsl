@@ -2,7 +2,7 @@
 // An edge is judged by its end points alone, so both its sides split it alike.
 
 #import lensrunner::chosen::worldlines::KEEPS_SLIVERS
-#import lensrunner::geometry::bindings::{counters, EDGE_LIMB, edge_states, model_triangle, pieces}
+#import lensrunner::geometry::bindings::{counters, EDGE_LIMB, model_triangle, pieces, states}
 #import lensrunner::geometry::clip::pixel_fineness
 #import lensrunner::geometry::emit::{emit_piece, emit_work, hand_over, off_screen}
 #import lensrunner::geometry::patch::{
@@ -30,7 +30,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     limb_strict = limb_strictness(instance);
     measure(piece, instance, triangle);
     for (var k = 0u; k < 3u; k++) {
-        let state = edge_states[instance.ids.w + triangle.edges[k]];
+        let state = states[instance.ids.w + triangle.edges[k]];
         model_levels[k] = bitcast<u32>(state.x);
         limb[k] = (bitcast<u32>(state.y) & EDGE_LIMB) != 0u;
     }

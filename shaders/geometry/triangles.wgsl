@@ -3,7 +3,7 @@
 
 #import lensrunner::chosen::method::METHOD_FILTERS
 #import lensrunner::geometry::bindings::{
-    chunks, counters, EDGE_CUT, edge_states, emitted, model_triangle, NO_INSTANCE, seen, VERTEX_ON_AXIS, VERTEX_UNSEEN,
+    chunk_of, counters, EDGE_CUT, model_triangle, NO_INSTANCE, seen, states, VERTEX_ON_AXIS, VERTEX_UNSEEN,
 }
 #import lensrunner::geometry::clip::clip_position
 #import lensrunner::geometry::emit::{emit_piece, emit_whole, emit_work, hand_over, off_screen, pixels}
@@ -15,7 +15,7 @@
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;
-    let chunk = chunks[index];
+    let chunk = chunk_of(index);
     if chunk.instance == NO_INSTANCE {
         return;
     }
@@ -31,9 +31,9 @@ fn decide(chunk: Chunk, lane: u32) {
     let triangle = model_triangle(number);
     let base = instance.ids.z;
     let slots = vec3<u32>(base) + triangle.vertices.xyz;
-    let o0 = emitted[slots.x];
-    let o1 = emitted[slots.y];
-    let o2 = emitted[slots.z];
+    let o0 = states[slots.x];
+    let o1 = states[slots.y];
+    let o2 = states[slots.z];
     if o0.w == VERTEX_UNSEEN || o1.w == VERTEX_UNSEEN || o2.w == VERTEX_UNSEEN {
         return;
     }
@@ -46,9 +46,9 @@ fn decide(chunk: Chunk, lane: u32) {
     if turned_away(instance, triangle, offset_of(o0.xyz), seen[slots.x].leaving, seen[slots.y].leaving, seen[slots.z].leaving) {
         return;
     }
-    let e0 = edge_states[instance.ids.w + triangle.edges.x];
-    let e1 = edge_states[instance.ids.w + triangle.edges.y];
-    let e2 = edge_states[instance.ids.w + triangle.edges.z];
+    let e0 = states[instance.ids.w + triangle.edges.x];
+    let e1 = states[instance.ids.w + triangle.edges.y];
+    let e2 = states[instance.ids.w + triangle.edges.z];
     let corner_a = vec3<f32>(1.0, 0.0, 0.0);
     let corner_b = vec3<f32>(0.0, 1.0, 0.0);
     let corner_c = vec3<f32>(0.0, 0.0, 1.0);

@@ -1,6 +1,8 @@
 // Stage 1: one thread per model vertex and order. Solves the emission time, projects, writes what the rasteriser may draw as it is.
 
-#import lensrunner::geometry::bindings::{chunks, counters, emitted, model_vertex, NO_INSTANCE, seen, VERTEX_ON_AXIS, VERTEX_PLAIN, VERTEX_UNSEEN}
+#import lensrunner::geometry::bindings::{
+    chunk_of, counters, model_vertex, NO_INSTANCE, seen, states, VERTEX_ON_AXIS, VERTEX_PLAIN, VERTEX_UNSEEN,
+}
 #import lensrunner::geometry::clip::finite_vector
 #import lensrunner::geometry::patch::{axis_core, axis_matters, seen_vertex}
 #import lensrunner::geometry::project::{answer, query_body}
@@ -9,7 +11,7 @@
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;
-    let chunk = chunks[index];
+    let chunk = chunk_of(index);
     if chunk.instance == NO_INSTANCE {
         return;
     }
@@ -30,5 +32,5 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     }
     seen[slot] = seen_vertex(instance, chunk.instance, found, normal_of(instance, vertex.normal.xyz),
         vec2<f32>(vertex.position.w, vertex.normal.w), vertex.info.x + instance.triangles.z);
-    emitted[slot] = vec4<f32>(found.by_axis, select(VERTEX_UNSEEN, select(VERTEX_PLAIN, VERTEX_ON_AXIS, on_axis), ok));
+    states[slot] = vec4<f32>(found.by_axis, select(VERTEX_UNSEEN, select(VERTEX_PLAIN, VERTEX_ON_AXIS, on_axis), ok));
 }

@@ -3,12 +3,11 @@
 use lensrunner::render::quality::knobs::turned;
 use lensrunner::render::quality::ladder::ladder;
 use lensrunner::render::quality::prices::{Prices, SceneClass};
-use rand::rngs::SmallRng;
-use rand::{RngExt, SeedableRng};
+use rand::RngExt;
 
-use super::moments::{Bench, case, scenes};
+use super::moments::{case, scenes};
 use super::{DialError, DialRequest};
-use crate::chart::{Provenance, Sheet, SheetError};
+use crate::chart::{Sheet, SheetError};
 
 /// Columns of the sheet.
 pub const COLUMNS: [&str; 9] =
@@ -24,11 +23,7 @@ pub fn measure(
     mut said: impl FnMut(String),
     keep: &dyn Fn(&Sheet) -> Result<(), SheetError>,
 ) -> Result<Sheet, DialError> {
-    let mut bench = Bench::new(request.size)?;
-    let mut sheet = Sheet::new(&COLUMNS);
-    sheet.notes = Provenance::now(bench.adapter()).notes();
-    sheet.notes.push(("seed".into(), request.seed.to_string()));
-    let mut rng = SmallRng::seed_from_u64(request.seed);
+    let (mut bench, mut sheet, mut rng) = request.begin(&COLUMNS)?;
     let classes: Vec<_> = SceneClass::ALL.into_iter().map(|class| Ok((class, scenes(class)?))).collect::<Result<_, DialError>>()?;
     for number in 0..request.moments {
         let (class, scenes) = &classes[number % classes.len()];

@@ -7,9 +7,9 @@ use lensrunner::render::quality::prices::Prices;
 use lensrunner::render::settings::Settings;
 use lensrunner::scene;
 
-use super::moments::{Bench, Case, class_of};
+use super::moments::{Case, class_of};
 use super::{DialError, DialRequest};
-use crate::chart::{Provenance, Sheet, SheetError};
+use crate::chart::{Sheet, SheetError};
 
 /// Columns of the sheet.
 pub const COLUMNS: [&str; 8] = ["class", "scene", "T", "level", "rung", "FLIP", "ms", "everything, ms"];
@@ -47,9 +47,7 @@ pub fn measure(
     mut said: impl FnMut(String),
     keep: &dyn Fn(&Sheet) -> Result<(), SheetError>,
 ) -> Result<Sheet, DialError> {
-    let mut bench = Bench::new(request.size)?;
-    let mut sheet = Sheet::new(&COLUMNS);
-    sheet.notes = Provenance::now(bench.adapter()).notes();
+    let (mut bench, mut sheet, _) = request.begin(&COLUMNS)?;
     for number in 0..request.moments {
         for scene in SCENES {
             let class = class_of(&scene::load(scene)?);

@@ -106,6 +106,7 @@ pub struct Taken {
     /// The same as it is stored: sRGB, four bytes a pixel.
     pub bytes: Vec<u8>,
     /// Milliseconds a frame: the instances, the passes, until all is done. On a software driver of the processor, all threads together.
+    /// NaN where no time was taken.
     pub milliseconds: f64,
 }
 
@@ -133,13 +134,18 @@ impl Bench {
         Ok(Shown { stage, moment, camera, finest: settings(&self.config) })
     }
 
-    /// Draws it with these settings.
+    /// Draws it with these settings, and takes the time.
     pub fn take(&mut self, shown: &Shown, settings: &Settings) -> Result<Taken, DialError> {
-        let frame = || shown.stage.frame(shown.camera, self.size, shown.moment.time(), &shown.moment.histories(), None, settings);
-        let picture = self.renderer.picture(&frame(), false)?;
-        let milliseconds = self.time(shown, settings)?;
+        let taken = self.picture(shown, settings)?;
+        Ok(Taken { milliseconds: self.time(shown, settings)?, ..taken })
+    }
+
+    /// Draws it with these settings.
+    pub fn picture(&mut self, shown: &Shown, settings: &Settings) -> Result<Taken, DialError> {
+        let frame = shown.stage.frame(shown.camera, self.size, shown.moment.time(), &shown.moment.histories(), None, settings);
+        let picture = self.renderer.picture(&frame, false)?;
         let light = picture.display.chunks_exact(4).map(|pixel| [0, 1, 2].map(|k| linear(pixel[k]))).collect();
-        Ok(Taken { light, bytes: picture.display, milliseconds })
+        Ok(Taken { light, bytes: picture.display, milliseconds: f64::NAN })
     }
 
     /// Milliseconds a frame with these settings, as [`Taken::milliseconds`].

@@ -2,12 +2,10 @@
 
 use lensrunner::render::quality::knobs::{Knob, turned};
 use lensrunner::render::quality::prices::{HEADER, Prices, SceneClass};
-use rand::SeedableRng;
-use rand::rngs::SmallRng;
 
-use super::moments::{Bench, case, scenes};
+use super::moments::{case, scenes};
 use super::{DialError, DialRequest, quantile};
-use crate::chart::{Provenance, Sheet, SheetError};
+use crate::chart::{Sheet, SheetError};
 
 /// Columns of the sheet of all that was measured.
 pub const COLUMNS: [&str; 8] = ["class", "scene", "T", "knob", "step", "FLIP", "ms", "finest ms"];
@@ -24,10 +22,7 @@ pub fn measure(
     mut said: impl FnMut(String),
     keep: &dyn Fn(&Sheet) -> Result<(), SheetError>,
 ) -> Result<Sheet, DialError> {
-    let mut bench = Bench::new(request.size)?;
-    let mut sheet = Sheet::new(&COLUMNS);
-    sheet.notes = Provenance::now(bench.adapter()).notes();
-    let mut rng = SmallRng::seed_from_u64(request.seed);
+    let (mut bench, mut sheet, mut rng) = request.begin(&COLUMNS)?;
     for class in SceneClass::ALL {
         let scenes = scenes(class)?;
         for number in 0..request.moments {

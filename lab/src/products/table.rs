@@ -253,6 +253,16 @@ pub const PRODUCTS: &[Product] = &[
         seconds: [120.0, 15.0],
     },
     Product {
+        name: "dial-moving",
+        runs: &[lab("chart dial --moving --moments 300 --size 640x360 -o {}")],
+        quick: &[lab("chart dial --moving --moments 12 --size 160x90 -o {}")],
+        folder: "lab",
+        files: &["dial-moving.csv"],
+        grows: false,
+        sources: &[DRAWN, &["lab/src/dial", "tables/quality.csv"]],
+        seconds: [600.0, 15.0],
+    },
+    Product {
         name: "window",
         runs: &[lab("chart window --size 1280x720 --frames 300 --rounds 2 -o {}")],
         // It needs a display.

@@ -2,7 +2,7 @@
 
 // Projection of a point of the disk, and its light.
 
-#import lensrunner::disk::arcs::bindings::{bends, circles, disk_counters}
+#import lensrunner::disk::arcs::bindings::{table_bend, circles, disk_counters}
 #import lensrunner::disk::motion::{disk_frequency, disk_slant, LEAST_COSINE}
 #import lensrunner::disk::sigma::Bearing
 #import lensrunner::disk::types::{coverage, disk, DiskVertex, own_share}
@@ -331,7 +331,7 @@ fn bend_of(row: u32, at: Bearing, azimuth: f32, own: f32) -> vec4<f32> {
     let place = among_azimuths(azimuth);
     let first_bend = row * THIN_AZIMUTHS + u32(place.x);
     // What a thin image shows of all of its gas is the same everywhere in it.
-    let bend = mix(bends[first_bend], bends[first_bend + 1u], vec4<f32>(place.y));
+    let bend = mix(table_bend(first_bend), table_bend(first_bend + 1u), vec4<f32>(place.y));
     // Where θ changes its sign both sides have the same light: they meet before the first azimuth and beyond the last.
     let apart = min(min(azimuth / FIRST_AZIMUTH, (HALF_TURN - azimuth) / FROM_LAST_AZIMUTH), 1.0);
     let brighter = 0.5 * (bend.y + bend.w) + select(0.5, -0.5, at.sine < 0.0) * apart * (bend.y - bend.w);

@@ -1,7 +1,7 @@
 // Stage 4: one thread per arc. Joins the points of its two circles by triangles; its radial sides point to the hole, where they are seen
 // straight.
 
-#import lensrunner::disk::arcs::bindings::{circles, disk_counters, disk_indices, disk_vertices, end_of, rings, segments}
+#import lensrunner::disk::arcs::bindings::{circles, disk_counters, disk_indices, disk_vertices, end_of, ring_of, segments}
 #import lensrunner::disk::types::disk
 
 @compute @workgroup_size(64)
@@ -10,7 +10,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= arcs * disk.sizes.w {
         return;
     }
-    let ring = rings[id.x / arcs];
+    let ring = ring_of(id.x / arcs);
     let arc = id.x % arcs;
     let inner = segments[ring.x * arcs + arc];
     let outer = segments[ring.y * arcs + arc];

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
-use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster_of};
+use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, TableTexture, bind, buffer, compute, layout, module, raster_of};
 use crate::render::gpu::shaders::Pass;
 
 use crate::render::disk::types::{self, DiskCounters, DiskVertex};
@@ -33,8 +33,8 @@ pub struct ArcPass {
     beyond: wgpu::RenderPipeline,
     circles: Growing,
     cuts: Growing,
-    rings: Growing,
-    bends: Growing,
+    rings: TableTexture,
+    bends: TableTexture,
     seen: Growing,
     segment_buffer: Growing,
     jobs: wgpu::Buffer,
@@ -64,8 +64,12 @@ impl ArcPass {
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, gas_layout: &wgpu::BindGroupLayout) -> ArcPass {
         use Slot::{Read, Write};
         let device = &gpu.device;
-        let group_layout =
-            layout(device, "disk", ShaderStages::COMPUTE, &[Slot::Uniform, Read, Read, Read, Read, Write, Write, Write, Write, Write]);
+        let group_layout = layout(
+            device,
+            "disk",
+            ShaderStages::COMPUTE,
+            &[Slot::Uniform, Read, Read, Slot::Words, Slot::Numbers, Write, Write, Write, Write, Write],
+        );
         let arguments_layout = layout(device, "disk arguments", ShaderStages::COMPUTE, &[Write]);
         let stage = |label, pass| compute(device, label, pass, "main", &[Some(frame_layout), Some(&group_layout)]);
         let argument = |entry| {
@@ -93,8 +97,8 @@ impl ArcPass {
             beyond: draw("disk beyond", "vertex", "beyond_fragment"),
             circles: Growing::new(device, "disk circles", storage),
             cuts: Growing::new(device, "disk cuts", storage),
-            rings: Growing::new(device, "disk rings", storage),
-            bends: Growing::new(device, "disk bends", storage),
+            rings: TableTexture::new(device, "disk rings", true),
+            bends: TableTexture::new(device, "disk bends", false),
             seen: Growing::new(device, "disk vertices", storage | BufferUsages::VERTEX),
             segment_buffer: Growing::new(device, "disk segments", storage),
             jobs: buffer(device, "disk jobs", 16 * u64::from(EXTRA), storage),
@@ -132,19 +136,10 @@ impl ArcPass {
     }
 
     fn bind(&self, device: &wgpu::Device, frame: &wgpu::Buffer) -> wgpu::BindGroup {
-        let buffers = [
-            frame,
-            &self.circles.buffer,
-            &self.cuts.buffer,
-            &self.rings.buffer,
-            &self.bends.buffer,
-            &self.seen.buffer,
-            &self.segment_buffer.buffer,
-            &self.jobs,
-            &self.indices,
-            &self.counters,
-        ];
-        let resources = buffers.map(|buffer| buffer.as_entire_binding());
+        let read = [frame, &self.circles.buffer, &self.cuts.buffer].map(wgpu::Buffer::as_entire_binding);
+        let tables = [self.rings.binding(), self.bends.binding()];
+        let written = [&self.seen.buffer, &self.segment_buffer.buffer, &self.jobs, &self.indices, &self.counters];
+        let resources: Vec<_> = read.into_iter().chain(tables).chain(written.map(wgpu::Buffer::as_entire_binding)).collect();
         bind(device, "disk", &self.group_layout, &resources)
     }
 

@@ -48,12 +48,11 @@ pub struct Geometry {
     stages: PipelineCache,
     draws: Draws,
     instances: TableTexture,
-    chunks: [Growing; 3],
+    chunks: [TableTexture; 3],
     /// Groups to dispatch over vertices, edges, triangles.
     dispatch: [[u32; 2]; 3],
     seen: Growing,
-    emitted: Growing,
-    edge_states: Growing,
+    states: Growing,
     pieces: Growing,
     work: Growing,
     indices: Growing,
@@ -142,7 +141,7 @@ impl Geometry {
             device,
             "geometry",
             ShaderStages::COMPUTE,
-            &[Slot::Words, Slot::Words, Slot::Words, Slot::Words, Read, Write, Write, Write, Write, Write, Write, Write, Write],
+            &[Slot::Words, Slot::Words, Slot::Words, Slot::Words, Slot::Words, Write, Write, Write, Write, Write, Write, Write],
         );
         let arguments_layout = layout(device, "arguments", ShaderStages::COMPUTE, &[Write]);
         let draw_layout = layout(
@@ -168,11 +167,10 @@ impl Geometry {
             draw_layout,
             stages,
             instances: TableTexture::new(device, "instances", true),
-            chunks: ["vertex chunks", "edge chunks", "triangle chunks"].map(|label| Growing::new(device, label, storage)),
+            chunks: ["vertex chunks", "edge chunks", "triangle chunks"].map(|label| TableTexture::new(device, label, true)),
             dispatch: [[0; 2]; 3],
             seen: Growing::new(device, "seen vertices", storage | BufferUsages::VERTEX),
-            emitted: Growing::new(device, "emitted", storage),
-            edge_states: Growing::new(device, "edge states", storage),
+            states: Growing::new(device, "states", storage),
             pieces: Growing::new(device, "pieces", storage),
             work: Growing::new(device, "work", storage),
             indices: Growing::new(device, "indices", storage | BufferUsages::INDEX),
@@ -228,18 +226,17 @@ impl Geometry {
     pub fn prepare(&mut self, gpu: &Gpu, models: &Models, placed: &[Placed], budget: u32, ground: Option<&GroundFrame>) {
         let mut instances: Vec<Instance> = Vec::with_capacity(placed.len());
         let mut chunks: [Vec<Chunk>; 3] = Default::default();
+        let drawn = || placed.iter().filter(|item| item.instance.is_finite());
+        // States of edges lie behind those of vertices.
+        let all_vertices: u32 = drawn().map(|item| item.model.vertices[1]).sum();
+        // What is not finite is left out here; counted with what the shaders leave out.
+        let refused = (placed.len() - drawn().count()) as u32;
         let (mut vertices, mut edges, mut triangles) = (0, 0, 0);
-        let mut refused = 0;
-        for item in placed {
-            if !item.instance.is_finite() {
-                // Left out here; counted with what the shaders leave out.
-                refused += 1;
-                continue;
-            }
+        for item in drawn() {
             let model = item.model;
             let mut instance = item.instance;
             instance.ids[2] = vertices;
-            instance.ids[3] = edges;
+            instance.ids[3] = all_vertices + edges;
             instance.vertices = [model.vertices[0], model.vertices[1], model.edges[0], model.edges[1]];
             instance.triangles = [model.triangles[0], model.triangles[1], model.material, item.instance.triangles[3]];
             let number = instances.len() as u32;
@@ -264,7 +261,8 @@ impl Geometry {
         for ((list, buffer), dispatch) in chunks.iter_mut().zip(&mut self.chunks).zip(&mut self.dispatch) {
             let count = list.len() as u32;
             *dispatch = [count.min(GROUPS), count.div_ceil(GROUPS)];
-            list.resize((dispatch[0] * dispatch[1]) as usize, Chunk { instance: u32::MAX, first: 0 });
+            // Two are a texel.
+            list.resize((dispatch[0] * dispatch[1]).next_multiple_of(2) as usize, Chunk { instance: u32::MAX, first: 0 });
             replaced |= buffer.write(gpu, list);
         }
         replaced |= self.seen.reserve(device, u64::from(self.capacity.vertices) * size_of::<SeenVertex>() as u64);
@@ -273,8 +271,7 @@ impl Geometry {
         replaced |= self.work.reserve(device, types::WORK_BYTES * work);
         replaced |= self.indices.reserve(device, 4 * u64::from(self.capacity.indices));
         replaced |= self.thin.reserve(device, types::THIN_BYTES * u64::from(self.capacity.thin));
-        replaced |= self.emitted.reserve(device, u64::from(vertices) * 16);
-        replaced |= self.edge_states.reserve(device, u64::from(edges) * 16);
+        replaced |= self.states.reserve(device, u64::from(vertices + edges) * 16);
         if replaced || self.groups.is_none() {
             self.make_groups(gpu, models);
         }
@@ -287,17 +284,21 @@ impl Geometry {
         let device = &gpu.device;
         let compute = std::array::from_fn(|kind| {
             let buffers = [
-                &self.chunks[kind].buffer,
                 &self.seen.buffer,
-                &self.emitted.buffer,
-                &self.edge_states.buffer,
+                &self.states.buffer,
                 &self.pieces.buffer,
                 &self.work.buffer,
                 &self.indices.buffer,
                 &self.thin.buffer,
                 &self.counters,
             ];
-            let tables = [self.instances.binding(), models.vertices.binding(), models.edges.binding(), models.triangles.binding()];
+            let tables = [
+                self.instances.binding(),
+                models.vertices.binding(),
+                models.edges.binding(),
+                models.triangles.binding(),
+                self.chunks[kind].binding(),
+            ];
             let resources: Vec<_> = tables.into_iter().chain(buffers.map(|buffer| buffer.as_entire_binding())).collect();
             bind(device, "geometry", &self.group_layout, &resources)
         });

@@ -31,8 +31,11 @@ pub enum DeviceError {
     },
 }
 
-/// Storage buffers that one stage of geometry binds: 9 of its own and the arguments.
-pub const STORAGE_BUFFERS: u32 = 10;
+/// What the renderer asks of an adapter: what WebGPU guarantees everywhere, and no more. Textures and buffers may be larger where it has
+/// room: for large pictures.
+fn minimum() -> wgpu::Limits {
+    wgpu::Limits::default()
+}
 
 /// Features that are used where the adapter has them: times and fragments of passes, tables sampled and the aurora added up in 32-bit
 /// floats.
@@ -43,13 +46,21 @@ const OPTIONAL: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY
 
 /// What is missing for the renderer on a device with these limits, or None.
 pub fn missing_limits(limits: &wgpu::Limits) -> Option<String> {
-    if limits.max_storage_buffers_per_shader_stage < STORAGE_BUFFERS {
-        return Some(format!(
-            "a compute stage needs {STORAGE_BUFFERS} storage buffers, the driver offers {}",
-            limits.max_storage_buffers_per_shader_stage
-        ));
+    let mut missing = Vec::new();
+    minimum().check_limits_with_fail_fn(limits, false, |name, needed, offered| {
+        missing.push(format!("`{name}` is {offered}, it must be {needed}"));
+    });
+    (!missing.is_empty()).then(|| missing.join("; "))
+}
+
+/// The minimum, with the room that an adapter of these limits has.
+fn required(offered: &wgpu::Limits) -> wgpu::Limits {
+    wgpu::Limits {
+        max_texture_dimension_2d: offered.max_texture_dimension_2d,
+        max_buffer_size: offered.max_buffer_size,
+        max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
+        ..minimum()
     }
-    None
 }
 
 /// Errors that a device reports. If nobody listens, wgpu ends the program at the first one.
@@ -122,7 +133,7 @@ impl Gpu {
         let (device, queue) = wait(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("lensrunner"),
             required_features: adapter.features() & optional,
-            required_limits: limits,
+            required_limits: required(&limits),
             ..Default::default()
         }))
         .map_err(|source| DeviceError::NoDevice { adapter: info.name.clone(), source })?;
