@@ -10,7 +10,9 @@ use lensrunner::scene;
 use lensrunner_lab::dial::{self, DialRequest};
 use lensrunner_lab::projection::ChartError;
 use lensrunner_lab::projection::race::Race;
-use lensrunner_lab::{aurora, aurora_race, bvh, chart, flight, frame_times, projection, tessellation, thin_disk, window_rates};
+use lensrunner_lab::{
+    aurora, aurora_race, bvh, chart, drivers, flight, frame_times, projection, soak, tessellation, thin_disk, window_rates,
+};
 
 use crate::fail;
 
@@ -24,9 +26,11 @@ pub enum ChartCommand {
     Frame(ChartFrameArgs),
     Dial(ChartDialArgs),
     Disk(ChartDiskArgs),
+    Drivers(ChartDriversArgs),
     Flight(ChartFlightArgs),
     Tessellation(ChartTessellationArgs),
     Quarry(ChartQuarryArgs),
+    Soak(ChartSoakArgs),
     Steps(ChartStepsArgs),
     Overlay(ChartOverlayArgs),
     Window(ChartWindowArgs),
@@ -119,6 +123,42 @@ pub struct ChartDialArgs {
     /// Compares each frame of four scenes with the one before, with the rungs that a governor goes through and without; --moments frames.
     #[arg(long, conflicts_with_all = ["check", "levels"])]
     moving: bool,
+}
+
+/// The same scenes by two Vulkan drivers: how many pixels differ, and a picture of those that differ most.
+#[derive(Args)]
+pub struct ChartDriversArgs {
+    /// The manifest of the second driver.
+    #[arg(long, value_name = "FILE.json")]
+    driver: PathBuf,
+    /// Scenes: TOML files, or names in assets/scenes.
+    #[arg(
+        long,
+        value_name = "NAME|FILE",
+        value_delimiter = ',',
+        default_value = "ring,parade,galaxy-axis-vertex,disk,disk-inner,disk-80,chase,plunge,aurora-orbit,aurora-below,aurora-lensed,02-first-pursuit"
+    )]
+    scene: Vec<String>,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = lensrunner::render::shot::size)]
+    size: [u32; 2],
+    /// The folder for the table and the picture.
+    #[arg(short, value_name = "DIR", default_value = chart::DEFAULT_FOLDER)]
+    output: PathBuf,
+}
+
+/// Whether memory grows over a long flight and many frames: a table.
+#[derive(Args)]
+pub struct ChartSoakArgs {
+    /// Steps of the simulation.
+    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(10..=100_000_000))]
+    steps: u64,
+    /// Frames.
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u64).range(10..=10_000_000))]
+    frames: u64,
+    /// The folder for the table.
+    #[arg(short, value_name = "DIR", default_value = chart::DEFAULT_FOLDER)]
+    output: PathBuf,
 }
 
 /// What the dev overlay costs the processor in a frame, page by page, beside a frame without it: a table.
@@ -321,6 +361,14 @@ pub fn run(chart: ChartCommand) -> ExitCode {
         })),
         ChartCommand::Quarry(args) => run_chart_quarry(&args),
         ChartCommand::Dial(args) => run_chart_dial(args),
+        ChartCommand::Drivers(args) => {
+            let output = chart::Output { folder: args.output, redraw: false };
+            finish_chart(drivers::run(&drivers::DriversRequest { output, driver: args.driver, scenes: args.scene, size: args.size }))
+        }
+        ChartCommand::Soak(args) => {
+            let output = chart::Output { folder: args.output, redraw: false };
+            finish_chart(soak::run(&soak::SoakRequest { output, steps: args.steps, frames: args.frames }, &mut io::stdout().lock()))
+        }
         ChartCommand::Overlay(args) => match lensrunner_lab::overlay_cost::run(args.frames as usize, &mut io::stdout().lock()) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => fail(&error, 1),

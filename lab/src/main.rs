@@ -2,6 +2,7 @@
 
 mod all;
 mod charts;
+mod map_of_stability;
 mod verdict;
 
 use std::process::ExitCode;
@@ -21,6 +22,7 @@ enum Command {
     Compare(Box<verdict::CompareArgs>),
     #[command(subcommand)]
     Chart(charts::ChartCommand),
+    Stability(map_of_stability::StabilityArgs),
     All(all::AllArgs),
     Status(all::StatusArgs),
     #[command(hide = true)]
@@ -31,6 +33,7 @@ fn main() -> ExitCode {
     match Cli::parse().command {
         Command::Compare(args) => verdict::run(&args),
         Command::Chart(chart) => charts::run(chart),
+        Command::Stability(args) => map_of_stability::run(args),
         Command::All(args) => all::all(args),
         Command::Status(args) => all::status(&args),
         Command::EmptyWindow(args) => charts::show_empty_window(&args),

@@ -1,6 +1,8 @@
 //! Where a ship was: its worldline as nodes in T with cubic Hermite interpolation between, in the past before T = 0 as a free orbit. Where
 //! that came out of the hole, the ship hovered until then.
 
+use std::sync::{PoisonError, RwLock};
+
 use bevy::prelude::Component;
 use glam::{DQuat, DVec3};
 
@@ -13,6 +15,9 @@ use super::flight::Command;
 /// Backwards in T, ingoing coordinates do not reach the white hole: a ship inside the horizon that came out of it hugs r = 1 with momentum
 /// growing as exp(|T|/2). Past this momentum (c) it is held where it is; its light is redshifted beyond sight long before.
 pub const MAX_PAST_MOMENTUM: f64 = 1e6;
+
+/// Nodes that a look beyond the known past leaves behind, at most; what is still older is integrated at each look.
+const MAX_LOOKED_UP: usize = 100_000;
 
 /// The longest span between two nodes of the past, in r_s/c.
 const MAX_PAST_STEP: f64 = 4.0;
@@ -135,6 +140,59 @@ fn burn(node: &Node) -> f64 {
     (boosted - p * (p.dot(boosted) / (g * (1.0 + g)))).length()
 }
 
+/// Nodes older than the past of a history, times decreasing: what was integrated for a look that far is kept for the next one.
+#[derive(Debug, Default)]
+struct LookedUp(RwLock<Vec<Node>>);
+
+impl Clone for LookedUp {
+    fn clone(&self) -> Self {
+        LookedUp(RwLock::new(self.0.read().unwrap_or_else(PoisonError::into_inner).clone()))
+    }
+}
+
+impl LookedUp {
+    fn clear(&mut self) {
+        self.0.get_mut().unwrap_or_else(PoisonError::into_inner).clear();
+    }
+
+    /// The ship at T = `time`, before the node `oldest`.
+    fn at(&self, oldest: &Node, time: f64) -> Sample {
+        let reaches = |nodes: &[Node]| nodes.last().is_some_and(|node| node.held || node.time <= time);
+        let nodes = self.0.read().unwrap_or_else(PoisonError::into_inner);
+        if reaches(&nodes) {
+            return sample(oldest, &nodes, time);
+        }
+        drop(nodes);
+        let mut nodes = self.0.write().unwrap_or_else(PoisonError::into_inner);
+        while !reaches(&nodes) && nodes.len() < MAX_LOOKED_UP {
+            let earlier = nodes.last().unwrap_or(oldest).before();
+            nodes.push(earlier);
+        }
+        if reaches(&nodes) {
+            return sample(oldest, &nodes, time);
+        }
+        let mut later = *nodes.last().unwrap_or(oldest);
+        drop(nodes);
+        loop {
+            let earlier = later.before();
+            if earlier.held || earlier.time <= time {
+                return sample(&later, &[earlier], time);
+            }
+            later = earlier;
+        }
+    }
+}
+
+/// The ship at T = `time` among nodes that go back to then, or to where it was held; `first` is the node after them.
+fn sample(first: &Node, nodes: &[Node], time: f64) -> Sample {
+    let after = nodes.partition_point(|node| node.time > time);
+    let later = if after == 0 { first } else { &nodes[after - 1] };
+    match nodes.get(after) {
+        Some(earlier) => between(earlier, later, time),
+        None => Sample { velocity: DVec3::ZERO, ..Sample::from(&later.state) },
+    }
+}
+
 /// The worldline of one ship. Every node is kept (some 180 bytes a step), so what crossed the horizon is seen for ever, unless
 /// [`History::forget_beyond`] says that nobody will look that far.
 #[derive(Component, Clone, Debug)]
@@ -143,6 +201,8 @@ pub struct History {
     nodes: Vec<Node>,
     /// Before T = 0, times decreasing.
     past: Vec<Node>,
+    /// Before that.
+    looked_up: LookedUp,
     /// How far back from the latest node is surely kept, in r_s/c.
     keep: f64,
     /// From which T to which there is such a thing at all, in r_s/c.
@@ -155,6 +215,7 @@ impl History {
         History {
             nodes: vec![Node::coasting(time, state)],
             past: Vec::new(),
+            looked_up: LookedUp::default(),
             keep: f64::INFINITY,
             exists: [f64::NEG_INFINITY, f64::INFINITY],
         }
@@ -177,6 +238,7 @@ impl History {
             let old = self.nodes.partition_point(|node| node.time < time - self.keep);
             self.nodes.drain(..old.saturating_sub(1));
             self.past.clear();
+            self.looked_up.clear();
         }
         let force = force(state);
         self.nodes.push(Node { time, state: *state, velocity: velocity(state), force_before: force, force_after: force, held: false });
@@ -224,11 +286,12 @@ impl History {
         while oldest.time > time && !oldest.held {
             oldest = oldest.before();
             self.past.push(oldest);
+            self.looked_up.clear();
         }
     }
 
-    /// The ship at T = `time`. Beyond the latest node it coasts on; before the oldest it coasted there or hovered (integrated on the spot:
-    /// slower than after [`History::reach_back`], and the same).
+    /// The ship at T = `time`. Beyond the latest node it coasts on; before the oldest it coasted there or hovered (integrated at the first look
+    /// that far, as [`History::reach_back`] does it).
     pub fn at(&self, time: f64) -> Sample {
         let (first, last) = (self.nodes[0], self.last());
         if time >= last.time {
@@ -239,20 +302,10 @@ impl History {
             return between(&self.nodes[after - 1], &self.nodes[after], time);
         }
         let oldest = self.oldest();
-        if time >= oldest.time {
-            let after = self.past.partition_point(|node| node.time > time);
-            let later = if after == 0 { &first } else { &self.past[after - 1] };
-            return between(&self.past[after], later, time);
+        if time >= oldest.time || oldest.held {
+            return sample(&first, &self.past, time);
         }
-        let mut later = *oldest;
-        while !later.held {
-            let earlier = later.before();
-            if earlier.time <= time {
-                return between(&earlier, &later, time);
-            }
-            later = earlier;
-        }
-        Sample { velocity: DVec3::ZERO, ..Sample::from(&later.state) }
+        self.looked_up.at(oldest, time)
     }
 
     /// The proper acceleration by the engines in c²/r_s, its mean over the `span` r_s/c of T before `time`: from what they add to the

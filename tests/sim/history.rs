@@ -131,3 +131,25 @@ fn what_came_out_of_the_hole_inside_is_held_in_the_end_and_knows_it() {
     assert_eq!((held.velocity, held.force, held.turning, held.momentum), (0.0, 0.0, 0.0, [last.momentum.length(); 2]));
     moves_within_bounds(&history);
 }
+
+/// A look beyond the known past gives what [`History::reach_back`] gives, in whatever order the looks come, for a fast ship too; and a clone
+/// and a longer known past agree with it.
+#[test]
+fn looks_beyond_the_known_past_are_the_past() {
+    let fast = ShipState::new(DVec3::new(10.0, 0.0, 0.0), DVec3::new(0.0, 1000.0, 0.0));
+    let fallen = ShipState::new(DVec3::new(0.6, 0.1, 0.0), DVec3::new(0.4, 0.5, 0.0));
+    for state in [fast, fallen] {
+        let looked = History::new(0.0, &state);
+        let mut known = looked.clone();
+        known.reach_back(-3000.0);
+        let times = [-5.0, -2000.0, -0.3, -1999.9, -2900.0, -700.0, -2.0];
+        for time in times {
+            assert_eq!(looked.at(time), known.at(time), "{time}");
+        }
+        let mut later = looked.clone();
+        later.reach_back(-100.0);
+        for time in times {
+            assert_eq!(later.at(time), known.at(time), "{time}");
+        }
+    }
+}

@@ -5,7 +5,7 @@ mod contest;
 mod draw;
 #[cfg(feature = "embree")]
 mod embree;
-mod others;
+pub mod others;
 mod rays;
 mod request;
 

@@ -64,6 +64,7 @@ pub struct Obvhs {
 }
 
 impl Obvhs {
+    /// Builds the tree.
     pub fn new(triangles: &[Triangle]) -> Obvhs {
         let all: Vec<_> =
             triangles.iter().map(|&[a, b, c]| obvhs::triangle::Triangle { v0: a.into(), v1: b.into(), v2: c.into() }).collect();
@@ -72,6 +73,7 @@ impl Obvhs {
         Obvhs { tree, triangles }
     }
 
+    /// The nearest hit.
     pub fn closest(&self, ray: &Ray) -> Hit {
         let mut hit = RayHit::none();
         let theirs = obvhs::ray::Ray::new(ray.origin.into(), ray.direction.into(), 0.0, ray.until);
@@ -82,6 +84,7 @@ impl Obvhs {
         }
     }
 
+    /// Whether anything is hit.
     pub fn occluded(&self, ray: &Ray) -> bool {
         let theirs = obvhs::ray::Ray::new(ray.origin.into(), ray.direction.into(), 0.0, ray.until);
         !self.tree.ray_traverse_miss(theirs, |ray, id| self.triangles[id].intersect(ray))
@@ -119,12 +122,14 @@ pub struct Svenstaro {
 }
 
 impl Svenstaro {
+    /// Builds the tree.
     pub fn new(triangles: &[Triangle]) -> Svenstaro {
         let mut shapes: Vec<Shape> =
             triangles.iter().enumerate().map(|(i, &corners)| Shape { corners, number: i as u32, node: 0 }).collect();
         Svenstaro { tree: bvh::bvh::Bvh::build(&mut shapes), shapes }
     }
 
+    /// The nearest hit.
     pub fn closest(&self, ray: &Ray) -> Hit {
         let theirs = bvh::ray::Ray::new(ray.origin.into(), ray.direction.into());
         let mut best = Hit::MISS;

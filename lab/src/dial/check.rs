@@ -5,7 +5,7 @@ use lensrunner::render::quality::ladder::ladder;
 use lensrunner::render::quality::prices::{Prices, SceneClass};
 use rand::RngExt;
 
-use super::moments::{case, scenes};
+use super::moments::{begin, case, scenes};
 use super::{DialError, DialRequest};
 use crate::chart::{Sheet, SheetError};
 
@@ -23,7 +23,7 @@ pub fn measure(
     mut said: impl FnMut(String),
     keep: &dyn Fn(&Sheet) -> Result<(), SheetError>,
 ) -> Result<Sheet, DialError> {
-    let (mut bench, mut sheet, mut rng) = request.begin(&COLUMNS)?;
+    let (mut bench, mut sheet, mut rng) = begin(request, &COLUMNS)?;
     let classes: Vec<_> = SceneClass::ALL.into_iter().map(|class| Ok((class, scenes(class)?))).collect::<Result<_, DialError>>()?;
     for number in 0..request.moments {
         let (class, scenes) = &classes[number % classes.len()];

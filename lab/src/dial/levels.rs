@@ -7,7 +7,7 @@ use lensrunner::render::quality::prices::Prices;
 use lensrunner::render::settings::Settings;
 use lensrunner::scene;
 
-use super::moments::{Case, class_of};
+use super::moments::{Case, begin, class_of};
 use super::{DialError, DialRequest};
 use crate::chart::{Sheet, SheetError};
 
@@ -47,7 +47,7 @@ pub fn measure(
     mut said: impl FnMut(String),
     keep: &dyn Fn(&Sheet) -> Result<(), SheetError>,
 ) -> Result<Sheet, DialError> {
-    let (mut bench, mut sheet, _) = request.begin(&COLUMNS)?;
+    let (mut bench, mut sheet, _) = begin(request, &COLUMNS)?;
     for number in 0..request.moments {
         for scene in SCENES {
             let class = class_of(&scene::load(scene)?);

@@ -16,17 +16,14 @@ pub mod moments;
 pub mod moving;
 pub mod prices;
 
-use rand::SeedableRng;
-use rand::rngs::SmallRng;
 use thiserror::Error;
 
-use crate::chart::{Provenance, Sheet, SheetError};
+use crate::chart::SheetError;
 use crate::plot::PlotError;
 use lensrunner::render::DeviceError;
 use lensrunner::render::gpu::readback::PictureError;
 use lensrunner::render::quality::prices::PricesError;
 use lensrunner::scene::SceneError;
-use moments::Bench;
 
 /// What to measure.
 #[derive(Clone, Debug)]
@@ -37,17 +34,6 @@ pub struct DialRequest {
     pub seed: u64,
     /// Width and height in pixels.
     pub size: [u32; 2],
-}
-
-impl DialRequest {
-    /// The renderer, a sheet with these columns that says where it comes from, and the numbers at random.
-    fn begin(&self, columns: &[&str]) -> Result<(Bench, Sheet, SmallRng), DialError> {
-        let bench = Bench::new(self.size)?;
-        let mut sheet = Sheet::new(columns);
-        sheet.notes = Provenance::now(bench.adapter()).notes();
-        sheet.notes.push(("seed".into(), self.seed.to_string()));
-        Ok((bench, sheet, SmallRng::seed_from_u64(self.seed)))
-    }
 }
 
 /// Why there is no chart.

@@ -14,9 +14,10 @@ use lensrunner::scene::planet::AuroraShape;
 use lensrunner::scene::{self, GameConfig, Scene};
 use lensrunner::spacetime::Observer;
 use rand::rngs::SmallRng;
-use rand::{Rng, RngExt};
+use rand::{Rng, RngExt, SeedableRng};
 
-use super::DialError;
+use super::{DialError, DialRequest};
+use crate::chart::{Provenance, Sheet};
 use crate::flip::flip;
 use crate::frame_times::processor_time;
 use crate::frame_times::whole::draw;
@@ -33,6 +34,15 @@ const TIMED: usize = 4;
 const WARM: usize = 3;
 /// Scenes drawn before a class is given up.
 const TRIES: usize = 200;
+
+/// The renderer, a sheet with these columns that says where it comes from, and the numbers at random.
+pub(super) fn begin(request: &DialRequest, columns: &[&str]) -> Result<(Bench, Sheet, SmallRng), DialError> {
+    let bench = Bench::new(request.size)?;
+    let mut sheet = Sheet::new(columns);
+    sheet.notes = Provenance::now(bench.adapter()).notes();
+    sheet.notes.push(("seed".into(), request.seed.to_string()));
+    Ok((bench, sheet, SmallRng::seed_from_u64(request.seed)))
+}
 
 /// One moment.
 #[derive(Clone, Debug, PartialEq)]
@@ -179,7 +189,7 @@ impl Bench {
 }
 
 /// Light of an sRGB byte (IEC 61966-2-1).
-fn linear(byte: u8) -> f32 {
+pub fn linear(byte: u8) -> f32 {
     let value = f32::from(byte) / 255.0;
     if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }

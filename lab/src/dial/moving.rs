@@ -8,7 +8,7 @@ use lensrunner::render::quality::prices::Prices;
 use lensrunner::scene;
 
 use super::levels::SCENES;
-use super::moments::{Case, Taken, class_of};
+use super::moments::{Case, Taken, begin, class_of};
 use super::{DialError, DialRequest};
 use crate::chart::{Sheet, SheetError};
 
@@ -37,7 +37,7 @@ pub fn measure(
     mut said: impl FnMut(String),
     keep: &dyn Fn(&Sheet) -> Result<(), SheetError>,
 ) -> Result<Sheet, DialError> {
-    let (mut bench, mut sheet, _) = request.begin(&COLUMNS)?;
+    let (mut bench, mut sheet, _) = begin(request, &COLUMNS)?;
     for scene in SCENES {
         said(scene.to_owned());
         let rungs = ladder(Prices::shipped(), class_of(&scene::load(scene)?));

@@ -3,7 +3,7 @@
 use lensrunner::render::quality::knobs::{Knob, turned};
 use lensrunner::render::quality::prices::{HEADER, Prices, SceneClass};
 
-use super::moments::{case, scenes};
+use super::moments::{begin, case, scenes};
 use super::{DialError, DialRequest, quantile};
 use crate::chart::{Sheet, SheetError};
 
@@ -13,7 +13,7 @@ pub const COLUMNS: [&str; 8] = ["class", "scene", "T", "knob", "step", "FLIP", "
 /// The error that is the price: the greatest but one in a hundred,
 const BOUND: f64 = 0.99;
 /// and so much more: a few moments seldom have the worst.
-const MARGIN: f64 = 1.5;
+const MARGIN: f64 = 1.8;
 
 /// Measures every step at `moments` moments of each class; `said` hears how far it has come, `keep` gets the
 /// rows after each moment.
@@ -22,7 +22,7 @@ pub fn measure(
     mut said: impl FnMut(String),
     keep: &dyn Fn(&Sheet) -> Result<(), SheetError>,
 ) -> Result<Sheet, DialError> {
-    let (mut bench, mut sheet, mut rng) = request.begin(&COLUMNS)?;
+    let (mut bench, mut sheet, mut rng) = begin(request, &COLUMNS)?;
     for class in SceneClass::ALL {
         let scenes = scenes(class)?;
         for number in 0..request.moments {

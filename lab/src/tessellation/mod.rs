@@ -6,6 +6,9 @@ mod draw;
 mod measure;
 mod ways;
 
+pub use measure::measure;
+pub use ways::NAMES;
+
 use std::path::PathBuf;
 
 use lensrunner::render::DeviceError;

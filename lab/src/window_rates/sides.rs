@@ -25,8 +25,8 @@ pub fn draw(rung: usize, size: [u32; 2], seed: u64, folder: &Path, out: &mut imp
     let mut picture = image::RgbImage::new(2 * wide, MOMENTS.len() as u32 * high);
     for (row, at) in MOMENTS.into_iter().enumerate() {
         let shown = bench.show(&Case { scene: SCENE.into(), at, seed, turn: [0.0; 2] })?;
-        let finest = bench.take(&shown, &shown.finest)?;
-        let taken = bench.take(&shown, &turned(&shown.finest, &rung.steps))?;
+        let finest = bench.picture(&shown, &shown.finest)?;
+        let taken = bench.picture(&shown, &turned(&shown.finest, &rung.steps))?;
         let error = bench.error(&finest, &taken);
         _ = writeln!(out, "T = {at}: {}; FLIP {error:.3}, predicted at most {:.3}", rung.says(), rung.error);
         for (column, side) in [finest, taken].into_iter().enumerate() {

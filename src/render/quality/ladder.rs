@@ -1,8 +1,8 @@
 //! The rungs from the finest picture to the fastest: each turns one knob a step further than the one before, that which adds the least
 //! error for the time it saves.
 //!
-//! Errors of several knobs add up: a bound. So do the shares of time that they save, since they work on different parts of a frame; but
-//! what is done pixel by pixel saves less where there are fewer pixels. `lab/run chart dial --check` holds both against measurements.
+//! Errors of several knobs add up: a bound. Of the time that the others leave, each knob leaves its share; what is done pixel by pixel saves
+//! less where there are fewer pixels. `lab/run chart dial --check` holds both against measurements.
 
 use super::knobs::{Knob, Steps};
 use super::prices::{Prices, SceneClass};
@@ -21,8 +21,8 @@ pub struct Rung {
 /// Less than this share of the time is not worth an error: it is within what measurements differ by.
 const LEAST_SAVED: f64 = 0.01;
 
-/// No rung is predicted to take less.
-const LEAST_TIME: f64 = 0.05;
+/// Added to the error of any rung but the finest: what single moments differ by where a knob mostly changes nothing.
+const LEAST_ERROR: f64 = 0.006;
 
 impl Rung {
     fn at(prices: &Prices, class: SceneClass, steps: Steps) -> Rung {
@@ -30,9 +30,10 @@ impl Rung {
         let area = Knob::area(steps);
         let (error, time) = all.fold((0.0, 1.0), |(error, time), (knob, price)| {
             let saved = (1.0 - price.time) * if knob.is_by_pixel() { area } else { 1.0 };
-            (error + price.error, time - saved)
+            (error + price.error, time * (1.0 - saved))
         });
-        Rung { steps, error, time: time.max(LEAST_TIME) }
+        let finest = steps == [0; Knob::ALL.len()];
+        Rung { steps, error: if finest { 0.0 } else { (error + LEAST_ERROR).min(1.0) }, time }
     }
 
     /// What is not at its finest, in words.

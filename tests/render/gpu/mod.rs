@@ -3,4 +3,5 @@
 mod branches;
 mod fallbacks;
 mod shaders;
+mod translate;
 mod types;

@@ -1,0 +1,128 @@
+//! The same pictures by two drivers: `lensrunner-lab chart drivers`. Which driver draws is told to Vulkan's loader by `VK_DRIVER_FILES`, so
+//! each picture is made by the game in a process of its own.
+//!
+//! - [`differ`]: how two pictures differ.
+
+pub mod differ;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use image::RgbImage;
+use lensrunner::render::{DeviceError, Gpu};
+use thiserror::Error;
+
+use crate::chart::{Output, Provenance, Sheet, SheetError};
+use differ::{Difference, difference};
+
+/// What to compare.
+#[derive(Clone, Debug)]
+pub struct DriversRequest {
+    /// Where sheet and picture go.
+    pub output: Output,
+    /// The second driver: its manifest, a `.json` file.
+    pub driver: PathBuf,
+    /// Names or files of scenes.
+    pub scenes: Vec<String>,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+}
+
+/// Why there is no comparison.
+#[derive(Debug, Error)]
+pub enum DriversError {
+    /// The game could not be run, or failed.
+    #[error("{scene} by {driver}: {reason}")]
+    Shot {
+        /// The scene.
+        scene: String,
+        /// The driver.
+        driver: String,
+        /// What went wrong.
+        reason: String,
+    },
+    /// There is no such driver.
+    #[error("{0}: no such file; it is to be the manifest of a Vulkan driver, for instance vk_swiftshader_icd.json of Chromium")]
+    NoDriver(PathBuf),
+    /// There is nothing to draw with.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// The sheet.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
+    /// The picture.
+    #[error("cannot write {0}: {1}")]
+    Write(PathBuf, image::ImageError),
+}
+
+/// Columns of the sheet.
+pub const COLUMNS: [&str; 6] = ["scene", "pixels", "differ", "elsewhere", "greatest", "FLIP"];
+
+/// Scenes set side by side in the picture: those that differ most.
+const SHOWN: usize = 3;
+
+/// Draws all scenes by both drivers, writes `drivers.csv` and `drivers.png`, and returns the files.
+pub fn run(request: &DriversRequest) -> Result<Vec<PathBuf>, DriversError> {
+    let manifest = request.driver.canonicalize().map_err(|_| DriversError::NoDriver(request.driver.clone()))?;
+    let other = manifest.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let gpu = Gpu::headless()?;
+    let mut sheet = Sheet::new(&COLUMNS);
+    sheet.notes = Provenance::now(&gpu.adapter_name()).notes();
+    sheet.notes.push(("second driver".into(), other.clone()));
+    drop(gpu);
+    let mut all: Vec<(Difference, [RgbImage; 2])> = Vec::new();
+    for scene in &request.scenes {
+        eprintln!("{scene}");
+        let pair = [shot(scene, request, None, "the first driver")?, shot(scene, request, Some(&manifest), &other)?];
+        let found = difference(&pair[0], &pair[1]);
+        sheet.push([
+            scene.clone(),
+            found.pixels.to_string(),
+            found.differ.to_string(),
+            found.elsewhere.to_string(),
+            found.greatest.to_string(),
+            format!("{:.5}", found.flip),
+        ]);
+        all.push((found, pair));
+    }
+    let csv = request.output.csv("drivers");
+    sheet.save(&csv)?;
+    all.sort_by_key(|(found, _)| std::cmp::Reverse((found.elsewhere, found.differ)));
+    all.truncate(SHOWN);
+    let path = request.output.folder.join("drivers.png");
+    side_by_side(&all, request.size).save(&path).map_err(|error| DriversError::Write(path.clone(), error))?;
+    Ok(vec![csv, path])
+}
+
+/// A picture by the game, in a process of its own.
+fn shot(scene: &str, request: &DriversRequest, manifest: Option<&Path>, driver: &str) -> Result<RgbImage, DriversError> {
+    let failed = |reason: String| DriversError::Shot { scene: scene.into(), driver: driver.into(), reason };
+    let here = std::env::current_exe().map_err(|error| failed(error.to_string()))?;
+    let game = here.with_file_name(format!("lensrunner{}", std::env::consts::EXE_SUFFIX));
+    let file = std::env::temp_dir().join(format!("lensrunner-drivers-{}.png", std::process::id()));
+    let mut command = Command::new(game);
+    command.args(["shot", "--scene", scene, "--size", &format!("{}x{}", request.size[0], request.size[1]), "-o"]).arg(&file);
+    if let Some(manifest) = manifest {
+        // The second name is that of older loaders.
+        command.env("VK_DRIVER_FILES", manifest).env("VK_ICD_FILENAMES", manifest);
+    }
+    let ran = command.stdout(Stdio::null()).output().map_err(|error| failed(error.to_string()))?;
+    if !ran.status.success() {
+        return Err(failed(String::from_utf8_lossy(&ran.stderr).trim().to_owned()));
+    }
+    let picture = image::open(&file).map_err(|error| failed(error.to_string()))?.into_rgb8();
+    _ = std::fs::remove_file(file);
+    Ok(picture)
+}
+
+/// A row for each scene: the first driver, the second, and where they differ (white: nowhere within a pixel; grey: beyond rounding).
+fn side_by_side(all: &[(Difference, [RgbImage; 2])], [width, height]: [u32; 2]) -> RgbImage {
+    let mut picture = RgbImage::new(3 * width, height * all.len().max(1) as u32);
+    for (row, (found, pair)) in all.iter().enumerate() {
+        let top = i64::from(height) * row as i64;
+        for (column, one) in pair.iter().chain([&found.map]).enumerate() {
+            image::imageops::replace(&mut picture, one, i64::from(width) * column as i64, top);
+        }
+    }
+    picture
+}

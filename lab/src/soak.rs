@@ -1,0 +1,147 @@
+//! Whether memory grows: a long flight without graphics, then many frames of many scenes on every rung of the picture's quality, with the
+//! resident memory of the process after each tenth: `lensrunner-lab soak`.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use bevy::app::FixedUpdate;
+use bevy::ecs::message::Messages;
+use lensrunner::render::gpu::readback::PictureError;
+use lensrunner::render::gpu::targets::target;
+use lensrunner::render::quality::knobs::turned;
+use lensrunner::render::quality::ladder::ladder;
+use lensrunner::render::quality::prices::Prices;
+use lensrunner::render::shot::{Moment, surroundings};
+use lensrunner::render::stage::{Stage, settings};
+use lensrunner::render::{DeviceError, Gpu, Renderer};
+use lensrunner::scene::{self, GameConfig, SceneError};
+use lensrunner::sim::{History, SimEvent, app_of};
+use thiserror::Error;
+
+use crate::chart::{Output, Provenance, Sheet, SheetError};
+use crate::dial::moments::class_of;
+use crate::frame_times::whole::draw;
+
+/// How long.
+#[derive(Clone, Debug)]
+pub struct SoakRequest {
+    /// Where the sheet goes.
+    pub output: Output,
+    /// Steps of the simulation.
+    pub steps: u64,
+    /// Frames.
+    pub frames: u64,
+}
+
+/// Why there is no answer.
+#[derive(Debug, Error)]
+pub enum SoakError {
+    /// A scene is wrong.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// There is nothing to draw with.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// No picture.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    /// The sheet.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
+}
+
+/// Columns of the sheet.
+pub const COLUMNS: [&str; 3] = ["what", "done", "resident MiB"];
+
+/// Parts after each of which memory is read.
+const PARTS: u64 = 10;
+/// How much of the ships' histories is kept, in r_s/c.
+const KEEP: f64 = 150.0;
+/// The flight: pilots that hunt and flee, without an end.
+const FLIGHT: &str = "chase";
+/// The frames, in turn: a stage is uploaded anew each time.
+const SCENES: [&str; 5] = ["chase", "disk-inner", "parade", "aurora-orbit", "plunge"];
+/// Frames of a scene before the next.
+const EACH: u64 = 50;
+const SIZE: [u32; 2] = [160, 90];
+
+/// Resident memory of the process in MiB; None where the system does not say.
+fn resident() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = text.lines().find(|line| line.starts_with("VmRSS:"))?;
+    Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? / 1024.0)
+}
+
+fn note(sheet: &mut Sheet, what: &str, done: u64, out: &mut impl Write) {
+    let memory = resident().unwrap_or(f64::NAN);
+    _ = writeln!(out, "{done} {what}: {memory:.1} MiB");
+    sheet.push([what.to_owned(), done.to_string(), format!("{memory:.1}")]);
+}
+
+/// Runs both, writes `soak.csv` and says what came out.
+pub fn run(request: &SoakRequest, out: &mut impl Write) -> Result<Vec<PathBuf>, SoakError> {
+    let gpu = Gpu::headless()?;
+    let mut sheet = Sheet::new(&COLUMNS);
+    sheet.notes = Provenance::now(&gpu.adapter_name()).notes();
+    fly(request.steps, &mut sheet, out)?;
+    show(&gpu, request.frames, &mut sheet, out)?;
+    for what in ["steps", "frames"] {
+        _ = writeln!(out, "{}", verdict(&sheet, what));
+    }
+    let path = request.output.csv("soak");
+    sheet.save(&path)?;
+    Ok(vec![path])
+}
+
+fn fly(steps: u64, sheet: &mut Sheet, out: &mut impl Write) -> Result<(), SoakError> {
+    let config = GameConfig::default();
+    let mut app = app_of(&scene::load(FLIGHT)?, &config, 1);
+    let world = app.world_mut();
+    for mut history in world.query::<&mut History>().iter_mut(world) {
+        history.forget_beyond(KEEP);
+    }
+    for step in 1..=steps {
+        world.run_schedule(FixedUpdate);
+        world.clear_trackers();
+        world.resource_mut::<Messages<SimEvent>>().clear();
+        if step % (steps / PARTS).max(1) == 0 {
+            note(sheet, "steps", step, out);
+        }
+    }
+    Ok(())
+}
+
+fn show(gpu: &Gpu, frames: u64, sheet: &mut Sheet, out: &mut impl Write) -> Result<(), SoakError> {
+    let config = GameConfig::default();
+    let format = wgpu::TextureFormat::Rgba8UnormSrgb;
+    let (_, view) = target(&gpu.device, "soak", SIZE, format);
+    let mut renderer = Renderer::new(gpu, &surroundings(), format, SIZE);
+    let mut done = 0;
+    for round in 0.. {
+        let scene = scene::load(SCENES[round % SCENES.len()])?;
+        let stage = Stage::new(&mut renderer, &scene, &config);
+        let moment = Moment::new(&scene, &config, 2.0, 1);
+        let camera = stage.camera(moment.time(), &moment.ships());
+        let rungs = ladder(Prices::shipped(), class_of(&scene));
+        for _ in 0..EACH {
+            let settings = turned(&settings(&config), &rungs[done as usize % rungs.len()].steps);
+            draw(gpu, &mut renderer, &stage.frame(camera, SIZE, moment.time(), &moment.histories(), None, &settings), &view)?;
+            done += 1;
+            if done % (frames / PARTS).max(1) == 0 {
+                note(sheet, "frames", done, out);
+            }
+            if done >= frames {
+                return Ok(());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Growth from the third tenth on: before that caches fill.
+pub fn verdict(sheet: &Sheet, what: &str) -> String {
+    let rows: Vec<_> = sheet.rows.iter().filter(|row| sheet.text(row, "what") == what).collect();
+    let (Some(early), Some(last)) = (rows.get(2), rows.last()) else { return format!("{what}: too few to tell") };
+    let [from, to] = [early, last].map(|row| sheet.number(row, "resident MiB"));
+    format!("{what}: {from:.1} MiB after {}, {to:.1} MiB after {}", sheet.text(early, "done"), sheet.text(last, "done"))
+}

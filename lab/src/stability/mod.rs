@@ -1,0 +1,137 @@
+//! Where methods fail: one number for each method at each place, and whether it holds: `lensrunner-lab stability`.
+//!
+//! - [`light`]: directions and delays, beside the judge's.
+//! - [`matter`]: flights, beside the reference of [`crate::flight`].
+//! - [`drawing`]: places on surfaces in the picture, beside the judge's.
+//! - [`straight`]: straight rays at corners and edges of closed bodies.
+//! - [`held`]: places where no other method is set beside ours: what must hold, and the test that holds it.
+//! - [`faults`]: puts faults in, which those tests must find.
+//! - [`map`]: the page.
+
+pub mod drawing;
+pub mod faults;
+pub mod held;
+pub mod light;
+pub mod map;
+pub mod matter;
+pub mod straight;
+
+use std::path::PathBuf;
+
+use lensrunner::spacetime::orbit::OrbitError;
+
+use crate::chart::{Output, Provenance, Sheet, SheetError};
+use crate::tessellation::TessellationError;
+
+/// What is asked for.
+#[derive(Clone, Debug)]
+pub struct StabilityRequest {
+    /// Where page and sheet go.
+    pub output: Output,
+    /// Leaves out pictures and the largest tables.
+    pub quick: bool,
+}
+
+/// Why there is no map.
+#[derive(Debug, thiserror::Error)]
+pub enum StabilityError {
+    /// The sheet.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
+    /// Pictures.
+    #[error(transparent)]
+    Drawing(#[from] TessellationError),
+    /// A flight has no start.
+    #[error(transparent)]
+    Orbit(#[from] OrbitError),
+    /// The page.
+    #[error("cannot write {0}: {1}")]
+    Write(PathBuf, std::io::Error),
+}
+
+/// The parts, in the order of the page.
+pub const PARTS: [&str; 4] = ["light", "matter", "drawing", "straight rays"];
+
+/// Columns of the sheet.
+pub const COLUMNS: [&str; 8] = ["part", "place", "method", "ours", "value", "unit", "limit", "holds"];
+
+/// What a method does at a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// One of [`PARTS`].
+    pub part: &'static str,
+    /// Where.
+    pub place: &'static str,
+    /// The method.
+    pub method: String,
+    /// Whether the game uses it.
+    pub ours: bool,
+    /// Its greatest error there; NaN where it gives no answer.
+    pub value: f64,
+    /// Of what.
+    pub unit: &'static str,
+    /// The greatest error that holds.
+    pub limit: f64,
+}
+
+impl Finding {
+    /// Whether the method holds.
+    pub fn holds(&self) -> bool {
+        self.value <= self.limit
+    }
+
+    fn cells(&self) -> [String; 8] {
+        [
+            self.part.into(),
+            self.place.into(),
+            self.method.replace(',', ";"),
+            u8::from(self.ours).to_string(),
+            format!("{:.3e}", self.value),
+            self.unit.into(),
+            format!("{:e}", self.limit),
+            u8::from(self.holds()).to_string(),
+        ]
+    }
+}
+
+/// Measures all places.
+pub fn measure(quick: bool) -> Result<Vec<Finding>, StabilityError> {
+    let mut all = light::measure(quick);
+    all.extend(matter::measure()?);
+    if !quick {
+        all.extend(drawing::measure()?);
+    }
+    all.extend(straight::measure());
+    Ok(all)
+}
+
+/// Measures (or reads) and writes `stability.csv` and `stability.md`; returns the files.
+pub fn run(request: &StabilityRequest) -> Result<Vec<PathBuf>, StabilityError> {
+    let output = &request.output;
+    let sheet = output.sheet("stability", || {
+        let mut sheet = Sheet::new(&COLUMNS);
+        sheet.notes = Provenance::now("").notes();
+        measure(request.quick)?.iter().for_each(|finding| sheet.push(finding.cells()));
+        Ok::<_, StabilityError>(sheet)
+    })?;
+    let page = output.folder.join("stability.md");
+    std::fs::write(&page, map::page(&sheet)).map_err(|error| StabilityError::Write(page.clone(), error))?;
+    Ok(vec![output.csv("stability"), page])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ours are green everywhere; and the check sees red: every rival fails somewhere.
+    #[test]
+    fn ours_hold_everywhere() {
+        let all = measure(true).unwrap();
+        for finding in all.iter().filter(|finding| finding.ours) {
+            assert!(finding.holds(), "{finding:?}");
+        }
+        for method in ["rk4-256", "flat", "RK4", "splitting, order 2", "bvh"] {
+            assert!(all.iter().any(|finding| finding.method == method && !finding.holds()), "{method} fails nowhere");
+        }
+    }
+}
