@@ -15,10 +15,10 @@ const PLACES: [(&str, &str); 10] = [
     ("axis behind the hole through a vertex", "galaxy-axis-vertex"),
     ("2,744 balls round the hole", "parade"),
     ("camera 0.01 r_s above a ball of 1 r_s", "near.toml"),
-    ("ball of 6 r_s round the camera", "around.toml"),
+    ("square of 10 r_s that passes under the camera and behind it", "around.toml"),
     ("camera held 0.001 r_s above the horizon", "hovering.toml"),
     ("camera inside the horizon, at 0.9 r_s", "inside.toml"),
-    ("ball of 10⁻⁴ r_s", "tiny.toml"),
+    ("ball of 10⁻⁴ r_s, beside the near plane", "tiny.toml"),
     ("square of 10⁴ r_s", "huge.toml"),
 ];
 

@@ -22,7 +22,7 @@ closed form in f64, `rk4-256` shooting with 256 steps, `paper1-128` the largest 
     "Error of the place at the end, as a share of the distance from the hole. Limit: 2.7·10⁻⁴, half a pixel at 1920 pixels over 60°. Methods
 of equal steps take the game's own, 1/32 r_s/c, adaptive ones a tolerance of 10⁻⁹. Truth: extrapolation in polar coordinates.",
     "Displacement of surface points on the picture, in pixels: that which 99 % of them stay below, at 320 × 180. All ways are asked for 0.5 px,
-which is the limit. Truth: the judge's rays.",
+which is the limit. Truth: the judge's rays. Bodies are closed: from within one its surface is not drawn.",
     "Rays through corners and edges of closed bodies that pass without a hit, per cent. Limit: none.",
 ];
 
