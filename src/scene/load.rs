@@ -201,7 +201,7 @@ pub fn load(name_or_path: &str) -> Result<Scene, SceneError> {
     let file = file(name_or_path);
     let text = file.read_text(MOST_TEXT).map_err(|fault| match fault {
         FileFault::Nowhere { .. } => not_found(name_or_path, fault.to_string()),
-        fault if !file.is_there() => not_found(name_or_path, format!("{} is no file", file.path.display())),
+        _ if !file.is_there() => not_found(name_or_path, format!("{} is no file", file.path.display())),
         fault => SceneError::Read { path: file.path.clone(), source: fault.into() },
     })?;
     let scene = Scene::from_toml(&file.path, &text).map_err(SceneError::Invalid)?;

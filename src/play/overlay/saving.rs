@@ -1,7 +1,6 @@
 //! What was changed goes to `game.toml`, or into a command.
 
 use std::io::ErrorKind;
-use std::path::PathBuf;
 
 use bevy::prelude::*;
 
