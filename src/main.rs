@@ -1,9 +1,13 @@
 //! The command line.
 
+mod built;
+mod inside;
+
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::OnceLock;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::judge::{case, to_file};
@@ -28,7 +32,7 @@ const SIZE: [u32; 2] = [1280, 720];
 
 /// A chase game in the spacetime of a black hole, and the instrument that proves its picture right.
 #[derive(Parser)]
-#[command(version, about, args_conflicts_with_subcommands = true)]
+#[command(version = version(), about, args_conflicts_with_subcommands = true)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -151,8 +155,9 @@ struct SimulateArgs {
     /// The scene: a TOML file, or the name of one in assets/scenes.
     #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes."), required_unless_present = "replay")]
     scene: Option<String>,
-    /// Flies a replay again instead, and says whether it comes to the same end. SCENE is then the file of a mission of your own.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["until", "every", "seed", "output"])]
+    /// Flies a replay again instead, and says whether it comes to the same end: a file, or one of the game's own, as 01-training-expert.
+    /// SCENE is then the file of a mission of your own.
+    #[arg(long, value_name = "NAME|FILE", conflicts_with_all = ["until", "every", "seed", "output"])]
     replay: Option<PathBuf>,
     /// Of a mission: easy, normal or hard.
     #[arg(long, value_name = "LEVEL", default_value_t)]
@@ -256,7 +261,16 @@ enum BranchArg {
     Minus,
 }
 
+/// `0.1.0 (e5844de1a2b3, x86_64-unknown-linux-gnu)`: version, commit, target.
+fn version() -> &'static str {
+    static VERSION: OnceLock<String> = OnceLock::new();
+    let [named, found] = [option_env!("LENSRUNNER_COMMIT").unwrap_or(""), str::from_utf8(&built::COMMIT).unwrap_or("")];
+    let commit = [named, found].into_iter().find(|commit| !commit.is_empty() && !commit.starts_with('\0')).unwrap_or("unknown");
+    VERSION.get_or_init(|| format!("{} ({commit}, {})", env!("CARGO_PKG_VERSION"), built::TARGET))
+}
+
 fn main() -> ExitCode {
+    lensrunner::game_files::bring(inside::FILES);
     let cli = Cli::parse();
     match cli.command {
         #[cfg(feature = "game")]

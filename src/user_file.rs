@@ -27,6 +27,12 @@ pub enum FileFault {
         /// The most that is read.
         most: u64,
     },
+    /// A file of the game's own that is in none of its folders.
+    #[error("it is in none of: {}inside the program", tried.iter().map(|path| format!("{}, ", path.display())).collect::<String>())]
+    Nowhere {
+        /// The files that were looked for.
+        tried: Vec<PathBuf>,
+    },
     /// No text.
     #[error("line {line} is no text in UTF-8")]
     Text {
@@ -39,6 +45,7 @@ impl From<FileFault> for io::Error {
     fn from(fault: FileFault) -> io::Error {
         match fault {
             FileFault::Io(error) => error,
+            other @ FileFault::Nowhere { .. } => io::Error::new(io::ErrorKind::NotFound, other),
             other => io::Error::new(io::ErrorKind::InvalidData, other),
         }
     }
@@ -67,7 +74,12 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, FileFault> {
 
 /// The text of a regular file, at most `most` bytes.
 pub fn read_text(path: &Path, most: u64) -> Result<String, FileFault> {
-    String::from_utf8(read(path, most)?).map_err(|error| {
+    text_of(read(path, most)?)
+}
+
+/// The text that bytes are.
+pub fn text_of(bytes: Vec<u8>) -> Result<String, FileFault> {
+    String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         FileFault::Text { line: before.iter().filter(|byte| **byte == b'\n').count() + 1 }
     })

@@ -7,6 +7,7 @@ mod judge;
 #[cfg(feature = "game")]
 mod layout;
 mod lensing;
+mod package;
 #[cfg(feature = "game")]
 mod photo;
 #[cfg(feature = "game")]

@@ -19,9 +19,11 @@ pub mod table;
 
 pub use closed_form::{double, single};
 pub use lookup::{LensRay, lens_lookup, lens_lookup_aged, lens_lookup_at};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 pub use table::slice::Slice;
 pub use table::{Scheme, Table, TableError};
+
+use crate::game_files::{self, GameFile};
 
 /// The camera radii of a full-size bake (`table::bake::size`).
 pub const FULL_NODES: usize = 112;
@@ -36,46 +38,47 @@ pub fn bake(scheme: Scheme, nodes: usize, done: impl Fn(f64) + Sync) -> Table {
     }
 }
 
-/// Where the small committed table lies, from the project's folder.
+/// The name of the small committed table.
 pub const DEFAULT_PATH: &str = "tables/default.lut";
 
-/// The committed table's file: under the folder that the program is started in, else where the program was built, else beside the program.
-pub fn default_file() -> std::path::PathBuf {
-    let beside = std::env::current_exe().ok().and_then(|program| program.parent().map(std::path::Path::to_path_buf));
-    let folders = [Some(".".into()), Some(std::path::PathBuf::from(env!("CARGO_MANIFEST_DIR"))), beside];
-    let mut files = folders.into_iter().flatten().map(|folder| folder.join(DEFAULT_PATH));
-    let first = files.next().unwrap_or_else(|| DEFAULT_PATH.into());
-    if first.is_file() {
-        return first;
-    }
-    // Where there is none it is baked to the first folder that has a place for it.
-    let places: Vec<_> = std::iter::once(first.clone()).chain(files).collect();
-    let has_place = |file: &&std::path::PathBuf| file.parent().is_some_and(std::path::Path::is_dir);
-    places.iter().find(|file| file.is_file()).or_else(|| places.iter().find(has_place)).cloned().unwrap_or(first)
+/// The committed table. Where its file cannot be used, `complain` is told why, and the one inside the program takes its place; where that
+/// cannot either, it is baked again.
+pub fn default_table_or(complain: impl Fn(&TableError)) -> Table {
+    let usable = |file: &GameFile| usable(file, Scheme::Residual, SMALL_NODES);
+    let found = usable(&game_files::find(DEFAULT_PATH)).inspect_err(&complain);
+    let inside = || game_files::inside(DEFAULT_PATH).and_then(|file| usable(&file).ok());
+    let bake = || bake_to(&game_files::place_of(DEFAULT_PATH), Scheme::Residual, SMALL_NODES, &complain, |_| ());
+    found.ok().or_else(inside).unwrap_or_else(bake)
 }
 
-/// The committed table; where its file cannot be used, says why on stderr and bakes it again.
+/// [`default_table_or`] whose complaints go to stderr.
 pub fn default_table() -> Table {
-    let complain = |wrong: &TableError| eprintln!("lensrunner: {wrong}; baking the table again");
-    load_or_bake(&default_file(), Scheme::Residual, SMALL_NODES, complain, |_| ())
+    default_table_or(|wrong| eprintln!("lensrunner: {wrong}; another takes its place"))
+}
+
+/// The file of another table, `paper-128.lut`, or where it is to be written.
+pub fn table_file(name: &str) -> PathBuf {
+    game_files::place_of(&format!("tables/{name}"))
+}
+
+/// The table of a file, if that can be used and has enough nodes.
+fn usable(file: &GameFile, scheme: Scheme, nodes: usize) -> Result<Table, TableError> {
+    let wanted = match scheme {
+        Scheme::Residual => table::bake::size(nodes).map(|nodes| nodes as u32),
+        Scheme::Paper | Scheme::PaperUniform => [nodes as u32; 3],
+    };
+    let table = Table::read(file, scheme)?;
+    let has_fewer = table.size.iter().zip(wanted).any(|(found, wanted)| *found < wanted);
+    if has_fewer { Err(TableError::Nodes(file.path.clone(), table.size, wanted)) } else { Ok(table) }
 }
 
 /// The table of `path`; where that cannot be used or has fewer nodes, `complain` is told why, the table is baked with `nodes` and written there
 /// (`complain` is told if that fails), and never anything drawn from the file.
 pub fn load_or_bake(path: &Path, scheme: Scheme, nodes: usize, complain: impl Fn(&TableError), done: impl Fn(f64) + Sync) -> Table {
-    let wanted = match scheme {
-        Scheme::Residual => table::bake::size(nodes).map(|nodes| nodes as u32),
-        Scheme::Paper | Scheme::PaperUniform => [nodes as u32; 3],
-    };
-    let loaded = Table::load(path, scheme).and_then(|table| {
-        let has_fewer = table.size.iter().zip(wanted).any(|(found, wanted)| *found < wanted);
-        if has_fewer { Err(TableError::Nodes(path.to_path_buf(), table.size, wanted)) } else { Ok(table) }
-    });
-    let wrong = match loaded {
-        Ok(table) => return table,
-        Err(wrong) => wrong,
-    };
-    complain(&wrong);
+    usable(&GameFile::at(path), scheme, nodes).inspect_err(&complain).unwrap_or_else(|_| bake_to(path, scheme, nodes, &complain, done))
+}
+
+fn bake_to(path: &Path, scheme: Scheme, nodes: usize, complain: impl Fn(&TableError), done: impl Fn(f64) + Sync) -> Table {
     let table = bake(scheme, nodes, done);
     if let Err(wrong) = table.save(path) {
         complain(&wrong);

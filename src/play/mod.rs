@@ -62,8 +62,9 @@ pub struct PlayArgs {
     /// Flies at once, without the title.
     #[arg(long)]
     pub at_once: bool,
-    /// Shows the flight of a replay; --scene is then the file of a mission of your own.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["seed", "difficulty"])]
+    /// Shows the flight of a replay: a file, or one of the game's own, as 01-training-expert; --scene is then the file of a mission of
+    /// your own.
+    #[arg(long, value_name = "NAME|FILE", conflicts_with_all = ["seed", "difficulty"])]
     pub replay: Option<PathBuf>,
     /// The autopilot flies the player's ship.
     #[arg(long)]

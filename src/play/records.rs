@@ -9,20 +9,11 @@ use std::path::{Path, PathBuf};
 use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 
+use crate::game_files::user_folder;
 use crate::play::files::{set_aside, write_whole};
 use crate::scene::Difficulty;
 use crate::sim::replay::Replay;
 use crate::user_file;
-
-/// Names another folder than the user's own.
-pub const FOLDER_VARIABLE: &str = "LENSRUNNER_DATA";
-
-/// The folder that is named, else the user's own; None where there is none.
-pub fn data_folder() -> Option<PathBuf> {
-    let named = std::env::var_os(FOLDER_VARIABLE).map(PathBuf::from);
-    let own = || directories::ProjectDirs::from("", "", "lensrunner").map(|folders| folders.data_dir().to_path_buf());
-    named.or_else(own)
-}
 
 /// The best flight of a mission on a difficulty.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -48,7 +39,7 @@ pub struct Records {
 impl Records {
     /// Those of the user, and what is to be said of them.
     pub fn load() -> (Records, Option<String>) {
-        match data_folder() {
+        match user_folder() {
             Some(folder) => Records::load_from(&folder),
             None => (Records::default(), Some("There is no folder for best scores: they are kept until the game ends.".into())),
         }

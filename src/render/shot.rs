@@ -68,9 +68,7 @@ pub struct ShotRequest<'a> {
 
 /// Everything around: table, stars, Milky Way, from the project's files. What cannot be read is said in the log and replaced.
 pub fn surroundings() -> Surroundings {
-    let file = lensing::default_file();
-    let complain = |error: &lensing::TableError| warn!("{error}; the table is baked anew");
-    let table = lensing::load_or_bake(&file, lensing::Scheme::Residual, lensing::SMALL_NODES, complain, |_| ());
+    let table = lensing::default_table_or(|error| warn!("{error}; another takes its place"));
     let (stars, wrong) = scene::sky::stars::load_or_stand_in();
     if let Some(error) = wrong {
         warn!("{error}; a made-up sky stands in");

@@ -1,13 +1,12 @@
 //! Scene files: name or path to a checked [`Scene`].
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use serde::Deserialize;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::assets::assets_folder;
 use super::camera::{CameraEntry, SceneCamera, check_camera};
 use super::config::{self, GameConfig};
 use super::document::error::{Complaints, SceneError};
@@ -19,7 +18,13 @@ use super::planet::{Planet, PlanetEntry, SkyEntry, SkySwitches, check_planet, ch
 use super::prop::{Prop, PropEntry, check_props};
 use super::rules::{Rules, RulesEntry};
 use super::ship::{ShipEntry, ShipSpec, check_ships};
-use crate::user_file::{MOST_TEXT, read_text};
+use crate::game_files::{self, GameFile};
+use crate::user_file::{FileFault, MOST_TEXT};
+
+/// Where the scenes lie.
+const SCENES: &str = "assets/scenes";
+/// Where the missions lie.
+const MISSIONS: &str = "assets/missions";
 
 /// Everything a scene file says.
 #[derive(Debug, Clone)]
@@ -191,60 +196,38 @@ fn disk_keys(file: &Path, text: &str) -> Result<DiskKeys, Complaints> {
     ))
 }
 
-/// Loads a scene by name (`chase`: from `assets/scenes/`) or by path (anything that ends in `.toml` or holds a separator).
+/// Loads a scene by name (`chase`) or by path (anything that ends in `.toml` or holds a separator).
 pub fn load(name_or_path: &str) -> Result<Scene, SceneError> {
-    let path = path(name_or_path);
-    if !path.is_file() {
-        return Err(SceneError::NotFound { name: name_or_path.into(), tried: path, known: [names(), mission_names()].concat().join(", ") });
-    }
-    let text = read_text(&path, MOST_TEXT).map_err(|fault| SceneError::Read { path: path.clone(), source: fault.into() })?;
-    let scene = Scene::from_toml(&path, &text).map_err(SceneError::Invalid)?;
-    let folder = path.canonicalize().ok().and_then(|path| path.parent().map(PathBuf::from));
-    let own = [scenes_folder(), missions_folder()].map(|folder| folder.canonicalize().ok());
-    Ok(Scene { foreign: !own.contains(&folder), ..scene })
+    let file = file(name_or_path);
+    let text = file.read_text(MOST_TEXT).map_err(|fault| match fault {
+        FileFault::Nowhere { .. } => not_found(name_or_path, fault.to_string()),
+        _ if !file.is_there() => not_found(name_or_path, format!("{} is no file", file.path.display())),
+        fault => SceneError::Read { path: file.path.clone(), source: fault.into() },
+    })?;
+    let scene = Scene::from_toml(&file.path, &text).map_err(SceneError::Invalid)?;
+    Ok(Scene { foreign: !game_files::is_own(&file), ..scene })
+}
+
+fn not_found(name: &str, tried: String) -> SceneError {
+    SceneError::NotFound { name: name.into(), tried, known: [names(), mission_names()].concat().join(", ") }
 }
 
 /// The file that a name or path stands for, whether it exists or not.
-pub fn path(name_or_path: &str) -> PathBuf {
-    let by_path = name_or_path.ends_with(".toml") || name_or_path.contains(['/', '\\']);
-    if by_path {
-        return PathBuf::from(name_or_path);
-    }
-    let [scene, mission] = [scenes_folder(), missions_folder()].map(|folder| folder.join(format!("{name_or_path}.toml")));
-    if !scene.is_file() && mission.is_file() { mission } else { scene }
+pub fn file(name_or_path: &str) -> GameFile {
+    game_files::named(&[SCENES, MISSIONS], name_or_path)
 }
 
-/// The names of the scenes in `assets/scenes/`, sorted.
+/// The names of the scenes, sorted.
 pub fn names() -> Vec<String> {
-    names_in(scenes_folder())
+    game_files::names(SCENES)
 }
 
-/// The names of the missions in `assets/missions/`, sorted.
+/// The names of the missions, sorted.
 pub fn mission_names() -> Vec<String> {
-    names_in(missions_folder())
-}
-
-fn names_in(folder: PathBuf) -> Vec<String> {
-    let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut names: Vec<String> = files
-        .map(|entry| entry.path())
-        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
-        .filter_map(|path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned()))
-        .collect();
-    names.sort();
-    names
+    game_files::names(MISSIONS)
 }
 
 /// Help for an argument that takes a scene: what it is, and the names there are.
 pub fn help(what: &str) -> String {
     format!("{what}\n\nScenes: {}\n\nMissions: {}", names().join(", "), mission_names().join(", "))
-}
-
-fn scenes_folder() -> PathBuf {
-    assets_folder().join("scenes")
-}
-
-/// Where the missions lie that the game comes with.
-pub fn missions_folder() -> PathBuf {
-    assets_folder().join("missions")
 }

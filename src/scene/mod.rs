@@ -4,7 +4,6 @@
 //! both files have in common: TOML, and what can be wrong with it.
 
 pub mod assembly;
-pub mod assets;
 pub mod aurora;
 pub mod blackbody;
 pub mod camera;
@@ -25,11 +24,10 @@ pub mod ship;
 pub mod sky;
 
 pub use assembly::{Assembly, Body, Object};
-pub use assets::assets_folder;
 pub use camera::{Mount, SceneCamera, picture_size};
 pub use config::{GameConfig, METHODS};
 pub use document::error::{Complaint, Complaints, ConfigError, SceneError};
-pub use load::{Scene, help, load, mission_names, missions_folder, names, path};
+pub use load::{Scene, file, help, load, mission_names, names};
 pub use mission::{Difficulty, Mission};
 pub use model::{Image, Material, Model, Vertex};
 pub use planet::{Planet, SkySwitches};

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::snapshot::{Snapshot, SnapshotError};
 use super::{History, Moment};
-use crate::scene::model::import::model_path;
+use crate::scene::model::import::model_file;
 use crate::scene::{GameConfig, Scene, SceneError};
 
 /// A snapshot, flown again.
@@ -38,9 +38,9 @@ impl Restored {
             None => flight.scene(path, None)?,
         };
         let scene = scene.with_a_ship();
-        let missing = snapshot.models.iter().map(|model| model_path(model)).find(|model| !model.is_file());
+        let missing = snapshot.models.iter().map(|model| model_file(model)).find(|model| !model.is_there());
         if let Some(model) = missing {
-            return Err(SnapshotError::NoModel { path: path.to_path_buf(), scene: scene.name, model });
+            return Err(SnapshotError::NoModel { path: path.to_path_buf(), scene: scene.name, model: model.path });
         }
         if let Some(ship) = [snapshot.player, snapshot.hidden, snapshot.lit].into_iter().flatten().find(|ship| *ship >= scene.ships.len()) {
             return Err(damaged(format!("the scene {:?} has no ship number {ship}", scene.name)));

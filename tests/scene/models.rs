@@ -7,7 +7,7 @@ use lensrunner::scene::model::SHIP_MODELS;
 use lensrunner::scene::model::import::{ModelError, load_model, load_or_placeholder};
 use lensrunner::scene::model::shapes::{Anchor, icosphere, square, uv_sphere};
 use lensrunner::scene::model::texture;
-use lensrunner::scene::{Material, Model, assets_folder};
+use lensrunner::scene::{Material, Model};
 
 /// How often each edge of the surface is used, vertices being the same where their positions are, bit by bit.
 fn edges(model: &Model) -> HashMap<([u32; 3], [u32; 3]), u32> {
@@ -76,7 +76,7 @@ fn a_square_has_edge_one_and_faces_plus_z() {
 #[test]
 fn the_ships_are_sound() {
     for name in SHIP_MODELS {
-        let path = assets_folder().join("models").join(name);
+        let path = crate::support::root().join("assets/models").join(name);
         assert!(std::fs::metadata(&path).unwrap().len() < 600_000);
         let model = load_model(&path).unwrap();
         assert!((1_500..=6_000).contains(&model.triangles.len()), "{name}: {} triangles", model.triangles.len());
@@ -123,7 +123,7 @@ fn a_missing_or_broken_model_is_named_and_replaced() {
     assert!(model.fault().is_none() && edges(&model).values().all(|&uses| uses == 2) && volume(&model) > 0.0);
     let folder = crate::support::Folder::new();
     let path = folder.path().join("broken.glb");
-    let whole = std::fs::read(assets_folder().join("models/hunter.glb")).unwrap();
+    let whole = std::fs::read(crate::support::root().join("assets/models/hunter.glb")).unwrap();
     for bytes in [&b"not a model"[..], &whole[..whole.len() / 2], &[]] {
         std::fs::write(&path, bytes).unwrap();
         let error = load_model(&path).unwrap_err();

@@ -1,8 +1,8 @@
 //! Stars, Milky Way and black-body colours against published values.
 
 use glam::{Vec2, Vec3};
+use lensrunner::scene::blackbody;
 use lensrunner::scene::sky::{milky_way, stars};
-use lensrunner::scene::{assets_folder, blackbody};
 
 fn towards(ra_degrees: f64, dec_degrees: f64) -> Vec3 {
     let (ra, dec) = (ra_degrees.to_radians(), dec_degrees.to_radians());
@@ -11,7 +11,7 @@ fn towards(ra_degrees: f64, dec_degrees: f64) -> Vec3 {
 
 #[test]
 fn the_catalogue_is_whole_and_sirius_the_brightest() {
-    let stars = stars::load(&assets_folder().join("sky/stars.bin")).unwrap();
+    let stars = stars::load(&crate::support::root().join("assets/sky/stars.bin")).unwrap();
     assert_eq!(stars.len(), 117_955);
     assert!(stars.windows(2).all(|pair| pair[0].flux >= pair[1].flux));
     assert!(
@@ -37,7 +37,7 @@ fn the_sun_has_its_temperature() {
 fn a_damaged_catalogue_is_refused_by_reason() {
     let folder = crate::support::Folder::new();
     let path = folder.path().join("stars.bin");
-    let whole = std::fs::read(assets_folder().join("sky/stars.bin")).unwrap();
+    let whole = std::fs::read(crate::support::root().join("assets/sky/stars.bin")).unwrap();
     let refused = |bytes: &[u8]| {
         std::fs::write(&path, bytes).unwrap();
         stars::load(&path).unwrap_err().to_string()

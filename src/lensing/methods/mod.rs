@@ -128,7 +128,7 @@ pub fn filed(path: &str, scheme: Scheme, nodes: usize) -> lensing::Table {
             bar.get_or_init(|| indicatif::ProgressBar::new(1000)).set_position(*sum as u64);
         }
     };
-    let table = lensing::load_or_bake(&lensing::default_file().with_file_name(path), scheme, nodes, complain, done);
+    let table = lensing::load_or_bake(&lensing::table_file(path), scheme, nodes, complain, done);
     if let Some(bar) = bar.get() {
         bar.finish_and_clear();
     }

@@ -10,6 +10,7 @@ pub mod spline;
 
 use std::path::{Path, PathBuf};
 
+use crate::game_files::GameFile;
 use crate::user_file::{self, FileFault};
 
 /// The first bytes of a table file.
@@ -190,10 +191,16 @@ impl Table {
 
     /// Reads the file `path`, which must hold `wanted`.
     pub fn load(path: &Path, wanted: Scheme) -> Result<Table, TableError> {
-        let bytes = user_file::read(path, MOST_BYTES).map_err(|fault| match fault {
-            FileFault::Io(e) if e.kind() == std::io::ErrorKind::NotFound => TableError::Missing(path.to_path_buf()),
-            FileFault::Io(e) => TableError::Io(path.to_path_buf(), e),
-            fault => TableError::File(path.to_path_buf(), fault),
+        Table::read(&GameFile::at(path), wanted)
+    }
+
+    /// Reads a file that the game comes with, which must hold `wanted`.
+    pub fn read(file: &GameFile, wanted: Scheme) -> Result<Table, TableError> {
+        let path = &file.path;
+        let bytes = file.read(MOST_BYTES).map_err(|fault| match fault {
+            FileFault::Io(e) if e.kind() == std::io::ErrorKind::NotFound => TableError::Missing(path.clone()),
+            FileFault::Io(e) => TableError::Io(path.clone(), e),
+            fault => TableError::File(path.clone(), fault),
         })?;
         Table::from_bytes(path, &bytes, wanted)
     }

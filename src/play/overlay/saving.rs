@@ -1,7 +1,6 @@
 //! What was changed goes to `game.toml`, or into a command.
 
 use std::io::ErrorKind;
-use std::path::PathBuf;
 
 use bevy::prelude::*;
 
@@ -12,7 +11,7 @@ use crate::play::overlay::state::Overlay;
 use crate::play::session::{SCENE, Session};
 use crate::scene::config::edit::edited;
 use crate::scene::config::{self, Assignment, Setting};
-use crate::scene::{Difficulty, GameConfig};
+use crate::scene::{self, Difficulty, GameConfig};
 use crate::user_file::{MOST_TEXT, read_text};
 
 /// What the game would begin with: the file, and the player's choices over it.
@@ -41,7 +40,7 @@ pub fn save(world: &mut World) -> Result<String, String> {
     if changed.is_empty() {
         return Err("nothing was changed here that the file does not say".into());
     }
-    let file = session.config_file.clone().unwrap_or_else(|| PathBuf::from(config::FILE));
+    let file = session.config_file.clone().unwrap_or_else(config::new_file);
     // Where a link leads the file is, not the link.
     let place = file.canonicalize().unwrap_or_else(|_| file.clone());
     let named = |error: std::io::Error| format!("{}: {error}", file.display());
@@ -76,7 +75,9 @@ pub fn command_line(session: &Session, begun: &GameConfig) -> String {
     }
     if session.scene.name != SCENE {
         let name = &session.scene.name;
-        add("--scene", &if session.scene.foreign { format!("{name}.toml") } else { name.clone() });
+        // A file that is named by its path may have the name of another one.
+        let is_known = scene::load(name).is_ok_and(|known| known.fingerprint == session.scene.fingerprint);
+        add("--scene", &if is_known { name.clone() } else { format!("{name}.toml") });
     }
     if session.scene.mission.is_some() && session.difficulty != Difficulty::default() {
         add("--difficulty", &session.difficulty.to_string());

@@ -1,6 +1,6 @@
 //! A part of the trailer, played: its ships' worldlines, what was heard, and its cameras.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use bevy::prelude::{App, FixedUpdate};
 use glam::{DQuat, DVec3};
@@ -64,7 +64,7 @@ impl Take {
                 (session(scene, config, 0, Difficulty::default()), app)
             }
             Place::Flight(mission) => {
-                let file = replay_file(mission);
+                let file = PathBuf::from(format!("{mission}-expert"));
                 let replay = Replay::load(&file)?;
                 let scene = replay.scene(&file, None)?;
                 let app = replay.app(&scene, &config);
@@ -154,12 +154,6 @@ impl Take {
         let hunter = self.session.player();
         Some(Cast { hunter: of(hunter)?, quarry: self.session.target().and_then(of), hunter_index: hunter })
     }
-}
-
-/// Where the expert's flight in a mission lies.
-fn replay_file(mission: &str) -> PathBuf {
-    let missions = scene::missions_folder();
-    missions.parent().unwrap_or(Path::new("")).join("replays").join(format!("{mission}-expert.toml"))
 }
 
 /// From the first place to the second, evenly: fades hide the beginning and the end.

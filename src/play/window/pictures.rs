@@ -5,7 +5,7 @@ use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use crate::play::records::data_folder;
+use crate::game_files::user_folder;
 
 /// Names another folder than the user's own.
 pub const FOLDER_VARIABLE: &str = "LENSRUNNER_PICTURES";
@@ -16,7 +16,7 @@ pub fn folders() -> Vec<PathBuf> {
         return vec![PathBuf::from(named)];
     }
     let own = directories::UserDirs::new().and_then(|folders| folders.picture_dir().map(|folder| folder.join("Lensrunner")));
-    let data = data_folder().map(|folder| folder.join("pictures"));
+    let data = user_folder().map(|folder| folder.join("pictures"));
     own.into_iter().chain(data).chain([PathBuf::from("out")]).collect()
 }
 

@@ -44,7 +44,7 @@ impl Tables {
 
 /// The tables of Yamashita 2012 from their file beside the committed one, baked where it is missing or unusable.
 fn filed() -> Table {
-    let file = lensing::default_file().with_file_name(format!("paper-{PAPER_NODES}.lut"));
+    let file = lensing::table_file(&format!("paper-{PAPER_NODES}.lut"));
     let complain = |error: &TableError| bevy::log::warn!("{error}; the table is baked");
     lensing::load_or_bake(&file, Scheme::Paper, PAPER_NODES, complain, |_| ())
 }

@@ -14,6 +14,7 @@ use toml::de::{DeString, DeTable, DeValue};
 use super::document::error::{Complaints, ConfigError};
 use super::document::fault::Fault;
 use super::document::{MOST_SAID, complain_all, document, one};
+use crate::game_files;
 use crate::user_file::{MOST_TEXT, read_text};
 pub use assignment::Assignment;
 pub use fields::{
@@ -26,12 +27,18 @@ pub use setting::{Allowed, Setting, Value};
 /// The configuration's file where none is named.
 pub const FILE: &str = "game.toml";
 
-/// The file to read: the named one, else `game.toml` in the folder that the program is started in, else the one that the game comes with.
+/// The file to read: the named one, else `game.toml` in the folder that the program is started in, else the one in the user's
+/// folder, beside the program or in the project's folder.
 pub fn file(named: Option<&Path>) -> Option<PathBuf> {
     named.map(Path::to_path_buf).or_else(|| {
-        let beside_assets = super::assets_folder().join("..").join(FILE);
-        [PathBuf::from(FILE), beside_assets].into_iter().find(|file| file.is_file())
+        let here = Some(PathBuf::from(FILE)).filter(|file| file.is_file());
+        here.or_else(|| game_files::find(FILE).on_disk().map(Path::to_path_buf))
     })
+}
+
+/// The file that is written where there is none yet: in the user's folder, which [`file()`] looks in.
+pub fn new_file() -> PathBuf {
+    game_files::user_folder().unwrap_or_default().join(FILE)
 }
 
 /// Reads the named file, or the one that [`file()`] finds; where there is none, every value is its default.

@@ -46,12 +46,12 @@ impl fmt::Display for Complaints {
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     /// Neither a scene of that name nor a file.
-    #[error("no scene {name:?}: {} is no file; known scenes: {known}", tried.display())]
+    #[error("no scene {name:?}: {tried}; known scenes: {known}")]
     NotFound {
         /// What was asked for.
         name: String,
-        /// The file that was looked for.
-        tried: PathBuf,
+        /// Where it was looked for.
+        tried: String,
         /// The names that would have worked, separated by commas.
         known: String,
     },

@@ -8,6 +8,7 @@ use gltf::json;
 
 use super::accessors;
 use super::error::ModelError;
+use crate::game_files::GameFile;
 use crate::user_file::{self, FileFault, short};
 
 /// The most bytes of a model's file and of all that it names, together.
@@ -27,13 +28,14 @@ pub struct GltfFile {
 }
 
 /// Reads and checks a `.glb` or `.gltf` file, and the buffers that it names.
-pub fn read(path: &Path) -> Result<GltfFile, ModelError> {
-    let unusable = |reason: String| ModelError::Unusable { path: path.to_path_buf(), reason };
-    let bytes = user_file::read(path, MOST_BYTES).map_err(|source| ModelError::Read { path: path.to_path_buf(), source })?;
+pub fn read(file: &GameFile) -> Result<GltfFile, ModelError> {
+    let path = &file.path;
+    let unusable = |reason: String| ModelError::Unusable { path: path.clone(), reason };
+    let bytes = file.read(MOST_BYTES).map_err(|source| ModelError::Read { path: path.clone(), source })?;
     check_outline(&bytes).map_err(unusable)?;
     let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(&bytes).map_err(|source| match source {
         gltf::Error::Validation(wrong) => unusable(all_wrong(&wrong)),
-        source => ModelError::Gltf { path: path.to_path_buf(), source },
+        source => ModelError::Gltf { path: path.clone(), source },
     })?;
     let left = MOST_BYTES - bytes.len() as u64;
     drop(bytes);

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 use std::io::Cursor;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DVec3, Mat3, Mat4, Vec2, Vec3, Vec4};
@@ -12,7 +12,7 @@ use image::{ImageFormat, ImageReader, Limits};
 pub use super::error::ModelError;
 use super::gltf_file::{self, GltfFile};
 use super::{Image, MOST_TRIANGLES, Material, Model, Vertex, accessors};
-use crate::scene::assets::assets_folder;
+use crate::game_files::{self, GameFile};
 use crate::user_file::short;
 
 /// How far the farthest vertex of a model may be from its origin, in units of the model, after all transforms.
@@ -28,8 +28,12 @@ const MOST_IMAGE_BYTES: u64 = 512 << 20;
 
 /// Reads a `.glb` or `.gltf` file.
 pub fn load_model(path: &Path) -> Result<Model, ModelError> {
-    let mut file = gltf_file::read(path)?;
-    let model = make(&mut file).map_err(|reason| ModelError::Unusable { path: path.to_path_buf(), reason })?;
+    read_model(&GameFile::at(path))
+}
+
+fn read_model(file: &GameFile) -> Result<Model, ModelError> {
+    let mut parts = gltf_file::read(file)?;
+    let model = make(&mut parts).map_err(|reason| ModelError::Unusable { path: file.path.clone(), reason })?;
     Ok(model)
 }
 
@@ -97,14 +101,15 @@ fn has_area(model: &Model) -> bool {
 }
 
 /// The file of a model: of this name under `assets/models/`, else the one at this path.
-pub fn model_path(name: &str) -> PathBuf {
-    let inside = assets_folder().join("models").join(name);
-    if inside.is_file() || !Path::new(name).is_file() { inside } else { PathBuf::from(name) }
+pub fn model_file(name: &str) -> GameFile {
+    let known = game_files::find(&format!("assets/models/{name}"));
+    let path = Path::new(name);
+    if known.is_there() || !path.is_file() { known } else { GameFile::at(path) }
 }
 
 /// Reads a model by its name under `assets/models/` (or its path); on failure a placeholder and the reason.
 pub fn load_or_placeholder(name: &str) -> (Model, Option<ModelError>) {
-    match load_model(&model_path(name)) {
+    match read_model(&model_file(name)) {
         Ok(model) => (model, None),
         Err(error) => (placeholder(), Some(error)),
     }

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{Vec2, Vec3};
 
+use crate::game_files::{self, GameFile};
 use crate::scene::blackbody;
 
 /// The surface brightness of the brightest cloud, in stars of magnitude 0 per steradian: 20.2 magnitudes per square arc second.
@@ -55,12 +56,22 @@ pub enum MilkyWayError {
     },
 }
 
+/// The most bytes of the file.
+const MOST_BYTES: u64 = 64 << 20;
+
 /// Reads the picture and makes its smaller copies.
 pub fn load(path: &Path) -> Result<MilkyWay, MilkyWayError> {
-    let picture = image::open(path).map_err(|source| MilkyWayError::Image { path: path.to_path_buf(), source })?.into_luma8();
+    read(&GameFile::at(path))
+}
+
+fn read(file: &GameFile) -> Result<MilkyWay, MilkyWayError> {
+    let path = &file.path;
+    let bytes = file.read(MOST_BYTES).map_err(|fault| image::ImageError::IoError(fault.into()));
+    let picture = bytes.and_then(|bytes| image::load_from_memory(&bytes));
+    let picture = picture.map_err(|source| MilkyWayError::Image { path: path.clone(), source })?.into_luma8();
     let (width, height) = picture.dimensions();
     if width != 2 * height || !height.is_power_of_two() {
-        return Err(MilkyWayError::Shape { path: path.to_path_buf(), width, height });
+        return Err(MilkyWayError::Shape { path: path.clone(), width, height });
     }
     // The file holds the square root of the brightness, so that 8 bits suffice for the faint parts.
     let brightness = picture.into_raw().into_iter().map(|grey| (f32::from(grey) / 255.0).powi(2)).collect();
@@ -69,7 +80,7 @@ pub fn load(path: &Path) -> Result<MilkyWay, MilkyWayError> {
 
 /// The picture of `assets/sky/`, or a dark sky and the reason.
 pub fn load_or_dark() -> (MilkyWay, Option<MilkyWayError>) {
-    match load(&crate::scene::assets_folder().join("sky").join("milky-way.png")) {
+    match read(&game_files::find("assets/sky/milky-way.png")) {
         Ok(milky_way) => (milky_way, None),
         Err(error) => (MilkyWay::from_full(Level { width: 2, height: 1, brightness: vec![0.0; 2] }), Some(error)),
     }

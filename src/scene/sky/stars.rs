@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{DVec3, Vec3};
 
-use crate::user_file;
+use crate::game_files::{self, GameFile};
 
 /// The illuminance of a star of magnitude 0 outside the atmosphere, in lux (Allen's *Astrophysical Quantities*, 4th edition, V = 0).
 pub const MAGNITUDE_ZERO_LUX: f64 = 2.54e-6;
@@ -58,13 +58,17 @@ pub enum StarsError {
 
 /// Reads the catalogue, from bright to faint.
 pub fn load(path: &Path) -> Result<Vec<Star>, StarsError> {
-    let bytes = user_file::read(path, MOST_BYTES).map_err(|fault| StarsError::Read { path: path.to_path_buf(), source: fault.into() })?;
-    parse(&bytes).map_err(|reason| StarsError::Damaged { path: path.to_path_buf(), reason })
+    read(&GameFile::at(path))
+}
+
+fn read(file: &GameFile) -> Result<Vec<Star>, StarsError> {
+    let bytes = file.read(MOST_BYTES).map_err(|fault| StarsError::Read { path: file.path.clone(), source: fault.into() })?;
+    parse(&bytes).map_err(|reason| StarsError::Damaged { path: file.path.clone(), reason })
 }
 
 /// The catalogue of `assets/sky/`, or [`stand_in`] and the reason.
 pub fn load_or_stand_in() -> (Vec<Star>, Option<StarsError>) {
-    match load(&crate::scene::assets_folder().join("sky").join("stars.bin")) {
+    match read(&game_files::find("assets/sky/stars.bin")) {
         Ok(stars) => (stars, None),
         Err(error) => (stand_in(), Some(error)),
     }

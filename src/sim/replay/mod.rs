@@ -14,12 +14,13 @@ use serde::{Deserialize, Serialize};
 use super::hands::{Hands, choose_pilot};
 use super::run::{FlightReport, RunRequest, fly_to_end, state_hash};
 use super::{Clock, SimSet, app_of, board, outcome};
+use crate::game_files::{self, GameFile};
 use crate::scene::config::{self, Value};
 use crate::scene::crew::Crew;
 use crate::scene::document;
 use crate::scene::mission::Difficulty;
 use crate::scene::{self, GameConfig, Scene, SceneError};
-use crate::user_file::{FileFault, brief, read_text, short};
+use crate::user_file::{FileFault, brief, short};
 use packing::{MOST_BYTES, pack, unpack};
 
 pub use packing::Record;
@@ -219,18 +220,19 @@ impl Replay {
         })
     }
 
-    /// Reads a file.
+    /// Reads a file, or the replay of this name that the game comes with.
     pub fn load(path: &Path) -> Result<Replay, ReplayError> {
-        let read = |fault: FileFault| ReplayError::Read { path: path.to_path_buf(), source: fault.into() };
-        let text = read_text(path, MOST_BYTES).map_err(read)?;
-        Replay::from_text(path, &text)
+        let file = path.to_str().map_or_else(|| GameFile::at(path), |name| game_files::named(&["assets/replays"], name));
+        let read = |fault: FileFault| ReplayError::Read { path: file.path.clone(), source: fault.into() };
+        let text = file.read_text(MOST_BYTES).map_err(read)?;
+        Replay::from_text(&file.path, &text)
     }
 
     /// Its scene, if that is still the same file: `named`, by name or path, or the one of the game that has its name.
     pub fn scene(&self, path: &Path, named: Option<&str>) -> Result<Scene, ReplayError> {
         let scene = match named {
             Some(named) => scene::load(named)?,
-            None if !scene::path(&self.scene).is_file() => {
+            None if !scene::file(&self.scene).is_there() => {
                 return Err(ReplayError::NoScene { path: path.to_path_buf(), scene: short(&self.scene) });
             }
             None => scene::load(&self.scene)?,
