@@ -25,7 +25,7 @@ use lensrunner::sim::snapshot::Snapshot;
 use lensrunner::sim::sweep::{self, Axis};
 use lensrunner::sim::{agent, balance, check};
 use lensrunner::spacetime::light::{Branch, Order};
-use lensrunner::user_file::{Named, write_whole};
+use lensrunner::user_file::{Named, brief, write_whole};
 
 /// Width and height of a picture of a scene, in pixels.
 const SIZE: [u32; 2] = [1280, 720];
@@ -197,7 +197,8 @@ struct SimulateArgs {
 /// Says where points are seen: CSV r,phi,L on standard input, CSV r,phi,L,psi,delay,redshift on standard output.
 ///
 /// Lengths in r_s, angles in radians, phi in [0, π], delay in r_s/c. psi is measured at the camera from the outward radial direction;
-/// redshift is ν_observed/ν_emitted between static observers. Fields stay empty where nothing is seen.
+/// redshift is ν_observed/ν_emitted between static observers. Fields stay empty where nothing is seen. Rows are answered as they come: above a
+/// wrong line there may be answers already.
 #[derive(Args)]
 #[command(after_long_help = methods::help(), after_help = methods::help())]
 struct ProjectArgs {
@@ -269,9 +270,24 @@ fn version() -> &'static str {
     VERSION.get_or_init(|| format!("{} ({commit}, {})", env!("CARGO_PKG_VERSION"), built::TARGET))
 }
 
+/// What the command line says; a refusal is said as clap says it, but for the middle of what is long.
+fn parsed() -> Result<Cli, ExitCode> {
+    Cli::try_parse().map_err(|error| {
+        let said = error.to_string();
+        if said.lines().map(str::len).max().unwrap_or(0) < 1500 {
+            error.exit();
+        }
+        said.lines().for_each(|line| eprintln!("{}", brief(line)));
+        ExitCode::from(2)
+    })
+}
+
 fn main() -> ExitCode {
     lensrunner::game_files::bring(inside::FILES);
-    let cli = Cli::parse();
+    let cli = match parsed() {
+        Ok(cli) => cli,
+        Err(code) => return code,
+    };
     match cli.command {
         #[cfg(feature = "game")]
         None => lensrunner::play::run(&cli.play),
@@ -432,7 +448,7 @@ fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
     let levelled = scene.config(&config, difficulty);
     request.check(&scene, &levelled)?;
     if args.agent {
-        let until = request.check(&scene, &levelled)?;
+        let until = request.check_recorded(&scene, &levelled)?;
         let request = agent::AgentRequest { until, seed, config: &config, difficulty };
         let replay = agent::fly(&scene, &levelled, &request, &mut io::stdin().lock(), &mut io::stdout().lock())?;
         if replay.outcome == "undecided" {
@@ -441,6 +457,7 @@ fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
         return args.save_replay.as_ref().map_or(Ok(()), |path| save(path, &replay.to_text()));
     }
     if let Some(path) = &args.save_replay {
+        request.check_recorded(&scene, &levelled)?;
         let (report, replay) = record(&scene, &config, &RunRequest { difficulty, crew, seed, until });
         save(path, &replay.to_text())?;
         eprintln!("{}: {} at T = {}", path.display(), replay.outcome, report.time);

@@ -21,8 +21,11 @@ pub const OUTPUT_HEADER: &str = "r,phi,L,psi,delay,redshift";
 /// Significant digits of the output.
 const DIGITS: usize = 12;
 
-/// The most bytes of a table of points: some ten million.
-const MOST_BYTES: u64 = 512 << 20;
+/// The most bytes of a line.
+const MOST_LINE: usize = 1 << 20;
+
+/// The most bytes that are read at once.
+const BLOCK: usize = 1 << 20;
 
 /// The frame in which ψ is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,9 +62,12 @@ pub enum ProjectError {
         /// The line, counted from 1.
         line: usize,
     },
-    /// More than is read.
-    #[error("standard input has more than {MOST_BYTES} bytes, the most that is read")]
-    TooLong,
+    /// A line is longer than any that is right.
+    #[error("line {line}: more than {MOST_LINE} bytes, allowed are {MOST_LINE}")]
+    Long {
+        /// The line, counted from 1.
+        line: usize,
+    },
     /// A row has too few or too many fields.
     #[error("line {line}: expected 3 fields ({INPUT_HEADER}), found {found}")]
     Columns {
@@ -108,19 +114,33 @@ pub struct ProjectRequest {
     pub branch: Branch,
 }
 
-/// [`project`] from `input` to `output`; nothing is written if any line is wrong.
+/// [`project`] from `input` to `output`, written as it is read: all whole lines that are there at once are a block, of which nothing is
+/// written if one of them is wrong.
 pub fn run(input: &mut dyn Read, output: &mut dyn Write, method: &dyn Projector, request: ProjectRequest) -> Result<(), ProjectError> {
-    let mut bytes = Vec::new();
-    input.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > MOST_BYTES {
-        return Err(ProjectError::TooLong);
+    let mut reader = RowReader::default();
+    let mut buffer = vec![0; BLOCK];
+    let mut pending: Vec<u8> = Vec::new();
+    loop {
+        let count = match input.read(&mut buffer) {
+            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => continue,
+            other => other?,
+        };
+        // The last line may go on.
+        let last = buffer[..count].iter().rposition(|byte| *byte == b'\n').map_or(0, |last| pending.len() + last + 1);
+        pending.extend_from_slice(&buffer[..count]);
+        let end = if count == 0 { pending.len() } else { last };
+        if end > 0 {
+            output.write_all(reader.answers(&pending[..end], method, request)?.as_bytes())?;
+            output.flush()?;
+            pending.drain(..end);
+        }
+        if pending.len() > MOST_LINE {
+            return Err(ProjectError::Long { line: reader.line + 1 });
+        }
+        if count == 0 {
+            return reader.finish();
+        }
     }
-    let text = str::from_utf8(&bytes).map_err(|error| {
-        let newlines = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();
-        ProjectError::Text { line: newlines + 1 }
-    })?;
-    output.write_all(project(text, method, request)?.as_bytes())?;
-    Ok(output.flush()?)
 }
 
 /// Projects every row of the CSV text `input` and returns the CSV output.
@@ -129,14 +149,64 @@ pub fn run(input: &mut dyn Read, output: &mut dyn Write, method: &dyn Projector,
 /// delay in r_s/c, redshift = ν_observed/ν_emitted between static observers whatever the frame (empty unless both are outside); all three
 /// are empty where no ray joins the two. The input is checked as a whole before anything is returned.
 pub fn project(input: &str, method: &dyn Projector, request: ProjectRequest) -> Result<String, ProjectError> {
-    let rows = parse(input)?;
-    let lines: Vec<String> = rows.par_iter().map(|row| row.answer(method, request)).collect();
-    let mut output = String::with_capacity(OUTPUT_HEADER.len() + 1 + lines.iter().map(|line| line.len() + 1).sum::<usize>());
-    for line in std::iter::once(OUTPUT_HEADER).chain(lines.iter().map(String::as_str)) {
-        output.push_str(line);
-        output.push('\n');
+    let mut reader = RowReader::default();
+    let output = reader.answers(input.as_bytes(), method, request)?;
+    reader.finish().map(|()| output)
+}
+
+/// What is known of the input so far.
+#[derive(Default)]
+struct RowReader {
+    /// Lines read.
+    line: usize,
+    /// The first of blank lines: only the end of the input may be blank.
+    blank: Option<usize>,
+}
+
+impl RowReader {
+    /// The output for the next whole lines.
+    fn answers(&mut self, lines: &[u8], method: &dyn Projector, request: ProjectRequest) -> Result<String, ProjectError> {
+        let is_first = self.line == 0 && !lines.is_empty();
+        let rows = self.rows(lines)?;
+        let lines: Vec<String> = rows.par_iter().map(|row| row.answer(method, request)).collect();
+        let mut output = String::with_capacity(OUTPUT_HEADER.len() + 1 + lines.iter().map(|line| line.len() + 1).sum::<usize>());
+        for line in is_first.then_some(OUTPUT_HEADER).into_iter().chain(lines.iter().map(String::as_str)) {
+            output.push_str(line);
+            output.push('\n');
+        }
+        Ok(output)
     }
-    Ok(output)
+
+    fn rows<'a>(&mut self, lines: &'a [u8]) -> Result<Vec<InputRow<'a>>, ProjectError> {
+        let mut rows = Vec::new();
+        let lines = lines.strip_suffix(b"\n").map_or((!lines.is_empty()).then_some(lines), Some);
+        for bytes in lines.into_iter().flat_map(|lines| lines.split(|byte| *byte == b'\n')) {
+            self.line += 1;
+            let line = self.line;
+            if bytes.len() > MOST_LINE {
+                return Err(ProjectError::Long { line });
+            }
+            let text = str::from_utf8(bytes).map_err(|_| ProjectError::Text { line })?.trim_end();
+            if line == 1 {
+                let header = text.strip_prefix('\u{feff}').unwrap_or(text);
+                if header.split(',').map(str::trim).ne(INPUT_HEADER.split(',')) {
+                    return Err(ProjectError::Header { found: header.trim().chars().take(80).collect() });
+                }
+            } else if text.is_empty() {
+                self.blank.get_or_insert(line);
+            } else if let Some(line) = self.blank {
+                return Err(ProjectError::Columns { line, found: 0 });
+            } else {
+                rows.push(parse_row(text, line)?);
+            }
+        }
+        Ok(rows)
+    }
+
+    /// Whether the input may end here.
+    fn finish(&self) -> Result<(), ProjectError> {
+        if self.line == 0 { Err(ProjectError::Header { found: String::new() }) } else { Ok(()) }
+    }
 }
 
 /// A row of the input: its fields as written and as numbers.
@@ -166,21 +236,10 @@ impl InputRow<'_> {
     }
 }
 
-fn parse(input: &str) -> Result<Vec<InputRow<'_>>, ProjectError> {
-    let input = input.strip_prefix('\u{feff}').unwrap_or(input);
-    // Only the end of the file may be blank.
-    let mut lines = input.trim_end().lines();
-    let header = lines.next().unwrap_or("");
-    if header.split(',').map(str::trim).ne(INPUT_HEADER.split(',')) {
-        return Err(ProjectError::Header { found: header.trim().chars().take(80).collect() });
-    }
-    lines.enumerate().map(|(index, text)| parse_row(text, index + 2)).collect()
-}
-
 fn parse_row(text: &str, line: usize) -> Result<InputRow<'_>, ProjectError> {
     let fields: Vec<&str> = text.split(',').map(str::trim).collect();
     let &[r, phi, camera] = fields.as_slice() else {
-        return Err(ProjectError::Columns { line, found: if text.trim().is_empty() { 0 } else { fields.len() } });
+        return Err(ProjectError::Columns { line, found: fields.len() });
     };
     let number = |field: &'static str, text: &str, range: &'static str, allowed: fn(f64) -> bool| {
         let value: f64 = text.parse().map_err(|_| ProjectError::Number { line, field, text: short(text) })?;

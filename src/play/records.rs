@@ -6,14 +6,15 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use bevy::prelude::Resource;
+use bevy::prelude::{Resource, warn};
 use serde::{Deserialize, Serialize};
 
 use crate::game_files::user_folder;
 use crate::play::files::{set_aside, write_whole};
 use crate::scene::Difficulty;
+use crate::scene::document::{self, error::Complaint};
 use crate::sim::replay::Replay;
-use crate::user_file;
+use crate::user_file::{self, short};
 
 /// The best flight of a mission on a difficulty.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,6 +28,25 @@ pub struct Best {
 
 /// All best flights: by mission, then by difficulty.
 type BestTable = BTreeMap<String, BTreeMap<String, Best>>;
+
+/// The best flights in a text that came from `file`.
+fn read(file: &Path, text: &str) -> Result<BestTable, Complaint> {
+    let table: BestTable = document::parse(file, text)?;
+    for (mission, levels) in &table {
+        for (difficulty, Best { score, stars }) in levels {
+            let wrong = |key: &str, problem: String| {
+                Err(Complaint { file: file.to_path_buf(), line: None, key: short(&format!("{mission}.{difficulty}.{key}")), problem })
+            };
+            if !(score.is_finite() && *score >= 0.0) {
+                return wrong("score", format!("{score}, allowed is a number from 0 on"));
+            }
+            if !(1..=3).contains(stars) {
+                return wrong("stars", format!("{stars}, allowed 1 to 3"));
+            }
+        }
+    }
+    Ok(table)
+}
 
 /// The best flights, and where they are kept.
 #[derive(Resource, Clone, Debug, Default)]
@@ -56,10 +76,11 @@ impl Records {
                 return (Records::default(), Some(format!("{}: {error}. New scores are kept until the game ends.", file.display())));
             }
         };
-        match toml::from_str(&text) {
+        match read(&file, &text) {
             Ok(table) => (records(table), None),
-            Err(_) => match set_aside(&file) {
+            Err(wrong) => match set_aside(&file) {
                 Some(aside) => {
+                    warn!("{wrong}");
                     let said = format!("{} was damaged; it is set aside as {}.", file.display(), aside.display());
                     (records(BestTable::new()), Some(said))
                 }
@@ -140,13 +161,15 @@ mod tests {
     fn a_damaged_file_is_set_aside_and_said() {
         let folder = folder("damaged");
         std::fs::create_dir_all(&folder).expect("a folder");
-        for n in 1..=2 {
-            std::fs::write(folder.join("records.toml"), format!("[broken {n}")).expect("a file");
+        // No score is better than one that is no number.
+        let wrong = ["[broken 1", "[\"01-training\".easy]\nscore = nan\nstars = 3", "[\"01-training\".easy]\nscore = 1.0\nstars = 9"];
+        for (n, wrong) in (1..).zip(wrong) {
+            std::fs::write(folder.join("records.toml"), wrong).expect("a file");
             let (records, said) = Records::load_from(&folder);
             assert!(said.is_some_and(|said| said.contains(&format!("damaged-{n}"))));
             assert_eq!(records.best("01-training", Difficulty::Easy), None);
             let aside = std::fs::read_to_string(folder.join(format!("records.damaged-{n}.toml"))).expect("set aside");
-            assert_eq!(aside, format!("[broken {n}"));
+            assert_eq!(aside, wrong);
         }
         _ = std::fs::remove_dir_all(&folder);
     }

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::config::GameConfig;
 use super::load::Scene;
-use super::model::import::load_or_placeholder;
+use super::model::import::{load_or_placeholder, placeholder};
 use super::model::{Material, Model, SHIP_MODELS, shapes};
 use super::prop::Shape;
 use super::ship::{Ai, ShipSpec};
@@ -20,6 +20,8 @@ pub struct Assembly {
     pub objects: Vec<Object>,
     /// What was wrong with a model; a placeholder stands in its place.
     pub warnings: Vec<String>,
+    /// Those that the models from files take.
+    bytes: usize,
 }
 
 /// One visible thing.
@@ -55,6 +57,8 @@ pub enum Body {
     Bolt(usize),
 }
 
+/// The most bytes that all models from files take; one alone may take half of it.
+const MOST_BYTES: usize = 1 << 30;
 /// Bolts that are kept, flying or seen by their light.
 pub const MOST_BOLTS: usize = 24;
 /// Diameter of a bolt, in r_s.
@@ -166,7 +170,13 @@ impl Assembly {
 
     fn file(&mut self, files: &mut HashMap<String, usize>, name: &str) -> usize {
         *files.entry(name.to_owned()).or_insert_with(|| {
-            let (model, error) = load_or_placeholder(name);
+            let (mut model, error) = load_or_placeholder(name);
+            let all = self.bytes + model.bytes();
+            if all > MOST_BYTES {
+                self.warnings.push(format!("model {name}: with it the models of the scene take {all} bytes, allowed {MOST_BYTES}"));
+                model = placeholder();
+            }
+            self.bytes += model.bytes();
             self.warnings.extend(error.map(|error| error.to_string()));
             self.models.push(model);
             self.models.len() - 1

@@ -1,5 +1,6 @@
 //! Scene files: name or path to a checked [`Scene`].
 
+use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -10,7 +11,7 @@ use toml::de::DeValue;
 use super::camera::{CameraEntry, SceneCamera, check_camera};
 use super::config::{self, GameConfig};
 use super::document::error::{Complaints, SceneError};
-use super::document::fault::Fault;
+use super::document::fault::{Fault, fault};
 use super::document::{complain_all, document, one, parse};
 use super::expect::{Expect, ExpectEntry, check_expect};
 use super::mission::{Difficulty, GateEntry, GoalEntry, Mission, MissionEntry, check_mission, levels};
@@ -136,7 +137,30 @@ impl Scene {
     }
 }
 
+/// The most names of models that a scene has: each is a file that is read.
+const MOST_MODELS: usize = 100;
+/// The most bytes of such a name.
+const MOST_NAME: usize = 1024;
+
+/// Refuses more models, and longer names, than are read.
+fn check_models(entry: &SceneFile) -> Result<(), Fault> {
+    let ships = entry.ship.iter().filter_map(|ship| ship.get_ref().model());
+    let mut known = HashSet::new();
+    for model in ships.chain(entry.prop.iter().map(|prop| prop.get_ref().model())) {
+        let length = model.get_ref().len();
+        if !(1..=MOST_NAME).contains(&length) {
+            return fault(model, format!("the model's name has {length} bytes, allowed 1 to {MOST_NAME}"));
+        }
+        known.insert(model.get_ref());
+        if known.len() > MOST_MODELS {
+            return fault(model, format!("up to here the scene names {} models, allowed {MOST_MODELS}", known.len()));
+        }
+    }
+    Ok(())
+}
+
 fn check(entry: &SceneFile) -> Result<Scene, Fault> {
+    check_models(entry)?;
     let ships = check_ships(&entry.ship)?;
     entry.rules.check(Rules::default())?;
     let planet = entry.planet.as_ref().map(check_planet).transpose()?;

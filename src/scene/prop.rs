@@ -30,7 +30,7 @@ use super::model::shapes::{self, Anchor};
 use super::model::texture;
 use super::model::{Material, Model};
 
-/// The most spheres in one lattice.
+/// The most spheres in all lattices of a scene, those too near to the hole included.
 pub const MAX_LATTICE: u64 = 200_000;
 /// Most triangles of one shape, and of all shapes of a scene: what the smallest buffers hold that a graphics adapter must offer (128 MiB),
 /// in three image orders.
@@ -119,26 +119,37 @@ pub struct PropEntry {
     clearance: Option<Spanned<f64>>,
 }
 
+impl PropEntry {
+    /// What it says of its shape, and where.
+    pub(super) fn model(&self) -> &Spanned<String> {
+        &self.model
+    }
+}
+
 /// Checks all props of a scene.
 pub fn check_props(entries: &[Spanned<PropEntry>]) -> Result<Vec<Prop>, Fault> {
-    let props = entries.iter().enumerate().map(|(index, entry)| check_prop(index, entry.get_ref())).collect::<Result<Vec<_>, _>>()?;
-    let mut total = 0;
-    for (prop, entry) in props.iter().zip(entries) {
+    let mut props = Vec::with_capacity(entries.len());
+    // Summed up as they come: together they may be more than memory holds.
+    let (mut total, mut spheres) = (0, 0);
+    for (index, entry) in entries.iter().enumerate() {
+        let prop = check_prop(index, entry.get_ref(), &mut spheres)?;
         let each = match &prop.shape {
             Shape::Sphere(each) | Shape::Square(each, _) => *each,
             Shape::Icosphere(each) => shapes::icosphere_triangles(*each),
-            Shape::File(_) => continue,
+            Shape::File(_) => 0,
         };
         total += u64::from(each) * prop.positions.len() as u64;
         if total > MAX_TRIANGLES {
             let message = format!("up to here the scene has {total} triangles, allowed {MAX_TRIANGLES}: lower triangles or count");
             return Err(Fault { span: entry.get_ref().triangles.as_ref().map_or(entry.span(), Spanned::span), message });
         }
+        props.push(prop);
     }
     Ok(props)
 }
 
-fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
+/// `spheres`: how many all lattices before it have, and then it too.
+fn check_prop(index: usize, entry: &PropEntry, spheres: &mut u64) -> Result<Prop, Fault> {
     let shape = shape(entry)?;
     let size = number(&entry.size, "size", 1e-4..=1e4, "r_s", 1.0)?;
     let attitude = attitude(entry)?;
@@ -146,7 +157,7 @@ fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
     Ok(Prop {
         name: entry.name.clone().unwrap_or_else(|| format!("prop {index}")),
         shape,
-        positions: positions(entry, size)?,
+        positions: positions(entry, size, spheres)?,
         attitude,
         size,
         material,
@@ -213,7 +224,7 @@ fn material(entry: &PropEntry) -> Result<Material, Fault> {
 }
 
 /// Centres of the prop, in r_s: one, or those of a lattice.
-fn positions(entry: &PropEntry, size: f64) -> Result<Vec<DVec3>, Fault> {
+fn positions(entry: &PropEntry, size: f64, spheres: &mut u64) -> Result<Vec<DVec3>, Fault> {
     let centre = DVec3::from_array(entry.position.as_ref().map_or([0.0; 3], |position| *position.get_ref()));
     let is_lattice = entry.model.get_ref() == "lattice";
     let radius = centre.length();
@@ -226,7 +237,7 @@ fn positions(entry: &PropEntry, size: f64) -> Result<Vec<DVec3>, Fault> {
         };
     }
     if is_lattice {
-        return lattice(entry, centre, size);
+        return lattice(entry, centre, size, spheres);
     }
     let count = entry.count.as_ref().map(Spanned::span);
     let misplaced = [count, entry.spacing.as_ref().map(Spanned::span), entry.clearance.as_ref().map(Spanned::span)];
@@ -237,7 +248,7 @@ fn positions(entry: &PropEntry, size: f64) -> Result<Vec<DVec3>, Fault> {
 }
 
 /// Centres of the spheres of a lattice about `centre`; those too near to the hole are left out.
-fn lattice(entry: &PropEntry, centre: DVec3, size: f64) -> Result<Vec<DVec3>, Fault> {
+fn lattice(entry: &PropEntry, centre: DVec3, size: f64, spheres: &mut u64) -> Result<Vec<DVec3>, Fault> {
     let Some(written) = &entry.count else {
         return fault(&entry.model, "a lattice needs count = [nx, ny, nz]".into());
     };
@@ -245,6 +256,10 @@ fn lattice(entry: &PropEntry, centre: DVec3, size: f64) -> Result<Vec<DVec3>, Fa
     let total: u64 = count.iter().map(|&n| u64::from(n).min(MAX_LATTICE + 1)).fold(1, u64::saturating_mul);
     if !(1..=MAX_LATTICE).contains(&total) {
         return fault(written, format!("count makes {total} spheres, allowed 1 to {MAX_LATTICE}"));
+    }
+    *spheres += total;
+    if *spheres > MAX_LATTICE {
+        return fault(written, format!("count: up to here all lattices have {spheres} spheres, allowed {MAX_LATTICE}"));
     }
     let spacing = number(&entry.spacing, "spacing", 1e-3..=1e3, "r_s", 2.0)?;
     let clearance = number(&entry.clearance, "clearance", 1.0..=1e4, "r_s", 1.2)?;

@@ -166,7 +166,14 @@ pub struct ShipEntry {
     max_thrust: Option<Spanned<f64>>,
     #[serde(default)]
     player: bool,
-    model: Option<String>,
+    model: Option<Spanned<String>>,
+}
+
+impl ShipEntry {
+    /// What it says of its model, and where.
+    pub(super) fn model(&self) -> Option<&Spanned<String>> {
+        self.model.as_ref()
+    }
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -264,7 +271,7 @@ pub fn check_ship(entry: &Spanned<ShipEntry>) -> Result<ShipSpec, Fault> {
         fuel: optional(&entry.fuel, "fuel", 0.0..=f64::MAX, "c")?.unwrap_or(f64::INFINITY),
         max_thrust: optional(&entry.max_thrust, "max_thrust", 0.0..=MAX_ACCELERATION, "c²/r_s")?,
         player: entry.player,
-        model: entry.model.clone(),
+        model: entry.model.as_ref().map(|model| model.get_ref().clone()),
     })
 }
 

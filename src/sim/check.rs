@@ -1,5 +1,6 @@
 //! `lensrunner check`: flies scenes and missions as their `[expect]` says, and tells what came otherwise.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
@@ -86,8 +87,9 @@ fn check_file(file: &Path, config: &GameConfig) -> Verdict {
 
 /// Flies a scene as it expects to be flown.
 pub fn check(scene: &Scene, config: &GameConfig) -> Verdict {
-    let missing: Vec<String> =
-        scene.ships.iter().filter_map(|ship| load_or_placeholder(ship.model.as_deref()?).1).map(|error| error.to_string()).collect();
+    // Each file once, however many ships are made of it.
+    let models: BTreeSet<&str> = scene.ships.iter().filter_map(|ship| ship.model.as_deref()).collect();
+    let missing: Vec<String> = models.into_iter().filter_map(|model| load_or_placeholder(model).1).map(|error| error.to_string()).collect();
     if !missing.is_empty() {
         return Verdict::Failed(missing);
     }

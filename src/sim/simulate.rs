@@ -11,6 +11,7 @@ use bevy::prelude::*;
 
 use super::flight::{Flight, fly};
 use super::hash::StateHash;
+use super::replay::MOST_STEPS;
 use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Programme, Ship, ShipMotion};
 use super::{Clock, History, SimEvent, app_of, board, outcome};
 
@@ -60,6 +61,18 @@ impl SimulateRequest {
         }
         if !(every > 0.0 && every.is_finite() && until / every <= MAX_ROWS) {
             return Err(SimulateError::Input(format!("--every {every:?} must be above 0 and give at most {MAX_ROWS:e} rows")));
+        }
+        Ok(until)
+    }
+
+    /// As [`SimulateRequest::check`], for a flight that is kept whole: as a replay, which has a length.
+    pub fn check_recorded(&self, scene: &Scene, config: &GameConfig) -> Result<f64, SimulateError> {
+        let until = self.check(scene, config)?;
+        let (step, latest) = (config.clock.step, MOST_STEPS as f64 * config.clock.step);
+        if until > latest {
+            return Err(SimulateError::Input(format!(
+                "--until {until} is too late for a replay: allowed 0 to {latest} r_s/c, {MOST_STEPS} steps of clock.step = {step}"
+            )));
         }
         Ok(until)
     }

@@ -8,6 +8,7 @@ use super::check::outcome_name;
 use super::run::{FlightReport, RunRequest, run_levelled};
 use crate::scene::config::{self, Value};
 use crate::scene::{GameConfig, Scene};
+use crate::user_file::short;
 
 /// The most flights of a sweep.
 pub const MOST_FLIGHTS: usize = 1_000_000;
@@ -27,9 +28,9 @@ impl std::str::FromStr for Axis {
     /// `enemy.thrust=0.02:0.06:5` (so many values from the first to the second) or `ship.fuel=3,5,7`.
     fn from_str(text: &str) -> Result<Axis, String> {
         let usage = "written KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,…, as enemy.thrust=0.02:0.06:5";
-        let (path, values) = text.split_once('=').ok_or_else(|| format!("{text:?} must be {usage}"))?;
-        let setting = config::setting(path).ok_or_else(|| format!("{path:?} is no setting of game.toml"))?;
-        let number = |word: &str| word.trim().parse::<f64>().map_err(|_| format!("{path}: {word:?} is no number; {usage}"));
+        let (path, values) = text.split_once('=').ok_or_else(|| format!("{:?} must be {usage}", short(text)))?;
+        let setting = config::setting(path).ok_or_else(|| format!("{:?} is no setting of game.toml", short(path)))?;
+        let number = |word: &str| word.trim().parse::<f64>().map_err(|_| format!("{path}: {:?} is no number; {usage}", short(word)));
         let one = |word: &str| setting.read(word);
         let values = match values.split(':').collect::<Vec<_>>()[..] {
             [from, to, count] => {
@@ -38,14 +39,14 @@ impl std::str::FromStr for Axis {
                     .parse()
                     .ok()
                     .filter(|count| (2..=10_000).contains(count))
-                    .ok_or_else(|| format!("{path}: COUNT = {count:?} must be a whole number, 2 to 10000"))?;
+                    .ok_or_else(|| format!("{path}: COUNT = {:?} must be a whole number, 2 to 10000", short(count)))?;
                 let (from, to) = (number(from)?, number(to)?);
                 // Twelve digits: 0.04 and not 0.039999999999999994.
                 let at = |index: usize| format!("{:.11e}", from + (to - from) * index as f64 / (count - 1) as f64);
                 (0..count).map(|index| one(&at(index))).collect::<Result<_, _>>()?
             }
             [list] => list.split(',').map(one).collect::<Result<_, _>>()?,
-            _ => return Err(format!("{text:?} must be {usage}")),
+            _ => return Err(format!("{:?} must be {usage}", short(text))),
         };
         Ok(Axis { path: path.to_owned(), values })
     }

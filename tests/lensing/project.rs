@@ -1,8 +1,9 @@
 //! The `project` table: its numbers, its form, and what it says about wrong input.
 
-use lensrunner::lensing::project::{AngleFrame, ProjectRequest, method, project, significant};
+use lensrunner::lensing::project::{AngleFrame, ProjectRequest, method, project, run, significant};
 use lensrunner::spacetime::light::{Branch, Order};
-use std::io::Write;
+use std::cell::RefCell;
+use std::io::{Read, Write};
 use std::process::{Command, Output, Stdio};
 
 const PRIMARY: ProjectRequest = ProjectRequest { order: Order::ALL[0], frame: AngleFrame::Static, branch: Branch::Plus };
@@ -109,6 +110,65 @@ fn twelve_significant_digits() {
     assert_eq!(significant(1.5e20), "1.50000000000e20");
     assert_eq!(significant(-2.5e-9), "-2.50000000000e-9");
     assert_eq!(significant(f64::INFINITY), "");
+}
+
+/// What comes in pieces, and what has been answered by the time that each piece is asked for.
+struct Pieces<'a> {
+    left: Vec<&'a [u8]>,
+    written: &'a RefCell<Vec<u8>>,
+    seen: Vec<String>,
+}
+
+impl Read for Pieces<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        self.seen.push(String::from_utf8(self.written.borrow().clone()).expect("text"));
+        if self.left.is_empty() {
+            return Ok(0);
+        }
+        let piece = self.left.remove(0);
+        buffer[..piece.len()].copy_from_slice(piece);
+        Ok(piece.len())
+    }
+}
+
+struct Answers<'a>(&'a RefCell<Vec<u8>>);
+
+impl Write for Answers<'_> {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.borrow_mut().write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+/// What is written for pieces that come one after the other, by the time that each is asked for, and what is wrong with them.
+fn answered(pieces: &[&[u8]]) -> (Vec<String>, Option<String>) {
+    let written = RefCell::new(Vec::new());
+    let mut input = Pieces { left: pieces.to_vec(), written: &written, seen: Vec::new() };
+    let wrong = run(&mut input, &mut Answers(&written), method("exact").expect("it exists").as_ref(), PRIMARY).err();
+    input.seen.push(String::from_utf8(written.borrow().clone()).expect("text"));
+    (input.seen, wrong.map(|wrong| wrong.to_string()))
+}
+
+#[test]
+fn rows_are_answered_as_they_come() {
+    let whole = "r,phi,L\n20,1,10\n20,2,10\n20,3,10\n";
+    let answer = project(whole, method("exact").expect("it exists").as_ref(), PRIMARY).expect("good input");
+    let up_to = |lines: usize| answer.lines().take(lines).map(|line| format!("{line}\n")).collect::<String>();
+    let (seen, wrong) = answered(&[b"r,phi,L\n20,", b"1,10\n20,2,10\n20,3", b",10"]);
+    assert_eq!((seen, wrong), (vec![String::new(), up_to(1), up_to(3), up_to(3), up_to(4)], None));
+    // A letter of two bytes in two pieces; blank lines that turn out not to be the end.
+    let (seen, wrong) = answered(&["\u{feff}r,phi,L\n20,1,10\n".as_bytes(), b"20,\xc3", b"\xa4,10\n"]);
+    assert_eq!((seen.last(), wrong.as_deref()), (Some(&up_to(2)), Some("line 3: phi = \"ä\" is not a number")));
+    let (seen, wrong) = answered(&[b"r,phi,L\n20,1,10\n\n", b" \n20,2,10\n"]);
+    assert_eq!(seen.last(), Some(&up_to(2)));
+    assert_eq!(wrong.as_deref(), Some("line 3: expected 3 fields (r,phi,L), found 0"));
+    // Without an end: refused before it fills memory.
+    let endless = [b'9'; 1 << 19];
+    let (_, wrong) = answered(&[b"r,phi,L\n20,1,10\n", &endless, &endless, &endless, &endless, &endless, &endless]);
+    assert_eq!(wrong.as_deref(), Some("line 3: more than 1048576 bytes, allowed are 1048576"));
 }
 
 fn command_line(arguments: &[&str], input: &[u8]) -> Output {

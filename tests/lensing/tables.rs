@@ -217,7 +217,13 @@ fn a_file_gives_back_the_table_and_says_what_is_wrong() {
     for length in [0, 5, 10, 60, good.len() - 1] {
         assert!(matches!(broken(&|b| b.truncate(length)), TableError::Short(..)), "cut at {length}");
     }
-    assert!(matches!(broken(&|b| b[0] = b'X'), TableError::Magic(_)));
+    for length in [1, 7, 8, 11, good.len()] {
+        let wrong = broken(&|b| {
+            b[0] = b'X';
+            b.truncate(length);
+        });
+        assert!(matches!(wrong, TableError::Magic(_)), "cut at {length}: {wrong}");
+    }
     assert!(matches!(broken(&|b| b[8] = 99), TableError::Version(_, 99)));
     assert!(matches!(broken(&|b| b[500] ^= 1), TableError::Checksum(_)));
     assert!(matches!(broken(&|b| b.push(0)), TableError::Layout(_)));

@@ -147,6 +147,7 @@ fn complaints_name_file_line_key_and_range() {
         ("\n[camera]\nposition = [0.0, 0.0, 15.0]\nzoom = 3\n", ["some/scene.toml:4:", "camera.zoom", "unknown field", "fov"]),
         ("[camera]\nposition = [0.0, 0.0]\n", ["some/scene.toml:2:", "camera.position", "length", "3"]),
         ("[camera]\nposition = [0.0, 0.0, 15.0, 2.0]\n", ["some/scene.toml:2:", "camera.position", "length 4", "3"]),
+        ("[[gate]]\nposition = [6.0, 0.0, 0.0, 1.0]\nradius = 0.5\n", ["some/scene.toml:2:", "gate[0].position", "length 4", "3"]),
         ("[camera]\nposition = [0.0, 0.0, 1e9]\n", ["some/scene.toml:2:", "camera.position", "10000", "r_s"]),
         ("[camera]\nposition = [nan, 0.0, 5.0]\n", ["some/scene.toml:2:", "camera.position", "finite", "NaN"]),
         ("[[prop]]\nmodel = \"sphere\"\nposition = [0.0, 0.0, 0.5]\n", ["some/scene.toml:3:", "prop[0].position", "0.5", "1.001"]),
@@ -233,6 +234,21 @@ fn scenes_out_of_all_bounds_are_refused_at_once() {
             "{} bytes: {said}, lacking one of {parts:?}",
             said.len()
         );
+    }
+    // Each by itself is allowed; together they are more than memory holds, or take minutes.
+    let lattice = "[[prop]]\nmodel = \"lattice\"\ncount = [200, 100, 2]\ntriangles = 20\n";
+    let cleared = lattice.replace("triangles = 20", "clearance = 10000.0");
+    let models = |length: usize| -> String {
+        (0..1000).map(|k| format!("[[prop]]\nmodel = \"{k:0length$}.glb\"\nposition = [0.0, 0.0, 9.0]\n")).collect()
+    };
+    for (text, parts) in [
+        (lattice.repeat(50_000), ["some/scene.toml:8:", "prop[1].triangles", "up to here the scene has 1600000 triangles, allowed 800000"]),
+        (cleared.repeat(50_000), ["some/scene.toml:23:", "prop[5].count", "all lattices have 240000 spheres, allowed 200000"]),
+        (models(4), ["some/scene.toml:302:", "prop[100].model", "names 101 models, allowed 100"]),
+        (models(2000), ["some/scene.toml:2:", "prop[0].model", "2004 bytes, allowed 1 to 1024"]),
+    ] {
+        let said = complaint(&text);
+        assert!(parts.iter().all(|part| said.contains(part)) && said.len() < 400, "{said}, lacking one of {parts:?}");
     }
     let seconds = begun.elapsed().as_secs_f64();
     assert!(seconds < 10.0, "{seconds} s");

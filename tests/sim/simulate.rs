@@ -166,6 +166,13 @@ fn what_cannot_be_run_is_refused_with_the_range() {
     assert!(refuse(SimulateRequest { until: Some(-1.0), ..SimulateRequest::default() }).contains("--until -1 must be from 0"));
     assert!(refuse(SimulateRequest { until: Some(f64::NAN), ..SimulateRequest::default() }).contains("--until NaN must be from 0"));
     assert!(refuse(SimulateRequest { every: 0.0, ..SimulateRequest::default() }).contains("--every 0.0 must be above 0"));
+    // Every step of what is recorded is kept.
+    let recorded = |until| {
+        let request = SimulateRequest { until: Some(until), every: 1e3, ..SimulateRequest::default() };
+        request.check_recorded(&scene, &GameConfig::default()).map_err(|wrong| wrong.to_string())
+    };
+    assert_eq!(recorded(1e5), Ok(1e5));
+    assert!(recorded(1e9).is_err_and(|said| said.contains("--until 1000000000") && said.contains("allowed 0 to 100000.03125 r_s/c")));
     let empty = Scene::from_toml(Path::new("empty.toml"), "").expect("a scene");
     let error =
         simulate(&empty, &GameConfig::default(), &SimulateRequest::default(), &mut Vec::new(), &mut Vec::new()).expect_err("refused");

@@ -142,11 +142,11 @@ impl Table {
     /// The table in the bytes of the file `path`, which must hold `wanted`.
     pub fn from_bytes(path: &Path, bytes: &[u8], wanted: Scheme) -> Result<Table, TableError> {
         let path = || path.to_path_buf();
-        if bytes.len() < 12 && MAGIC.starts_with(&bytes[..bytes.len().min(8)]) {
-            return Err(TableError::Short(path(), bytes.len(), HEADER + 4));
-        }
-        if &bytes[..8] != MAGIC {
+        if !MAGIC.starts_with(&bytes[..bytes.len().min(MAGIC.len())]) {
             return Err(TableError::Magic(path()));
+        }
+        if bytes.len() < 12 {
+            return Err(TableError::Short(path(), bytes.len(), HEADER + 4));
         }
         let version = u32::from_le_bytes(array(bytes, 8));
         if version != VERSION {

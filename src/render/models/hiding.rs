@@ -14,6 +14,9 @@ use crate::scene::model::Model;
 pub const DIRECTIONS: u32 = 32;
 /// Cells along each side of a depth map.
 const SIDE: usize = 256;
+/// The most cells that the triangles of a model cover together; of one with more, the map is coarser. Half a million triangles that all
+/// cover the whole map would take minutes.
+const MOST_CELLS: f64 = 16_777_216.0;
 /// Points of a triangle that are tested, as weights of its corners: the middles of its four quarters. It counts as seen if half of them
 /// are.
 const POINTS: [[f32; 3]; 4] = [
@@ -91,9 +94,11 @@ fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3) -> Vec<bool> {
         triangles.iter().map(|corners| corners.map(|p| Vec3::new(p.dot(right), p.dot(up), p.dot(direction)))).collect();
     let low = turned.iter().flatten().fold(Vec3::INFINITY, |low, p| low.min(*p));
     let high = turned.iter().flatten().fold(Vec3::NEG_INFINITY, |high, p| high.max(*p));
-    let cell = ((high - low).truncate() / SIDE as f32).max_element().max(1e-30);
+    let width = (high - low).truncate().max_element().max(1e-30);
+    let side = side_of(&turned, width);
+    let cell = width / side as f32;
     let place = |p: Vec3| ((p - low) / cell).truncate();
-    let depths = depth_map(&turned, &place);
+    let depths = depth_map(&turned, side, &place);
     turned
         .iter()
         .map(|corners| {
@@ -103,17 +108,35 @@ fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3) -> Vec<bool> {
             let slack = 1.5 * slope * cell + 1e-4 * (high - low).max_element();
             let seen = POINTS.iter().filter(|weights| {
                 let point: Vec3 = (0..3).map(|k| corners[k] * weights[k]).sum();
-                let [x, y] = place(point).as_usizevec2().to_array().map(|i| i.min(SIDE - 1));
-                point.z + slack >= depths[y * SIDE + x]
+                let [x, y] = place(point).as_usizevec2().to_array().map(|i| i.min(side - 1));
+                point.z + slack >= depths[y * side + x]
             });
             2 * seen.count() >= POINTS.len()
         })
         .collect()
 }
 
+/// Cells along each side of the depth map of triangles on a square so wide.
+fn side_of(triangles: &[[Vec3; 3]], width: f32) -> usize {
+    let mut side = SIDE;
+    while side > 1 && covered(triangles, side as f32 / width) > MOST_CELLS {
+        side /= 2;
+    }
+    side
+}
+
+/// Cells that are looked at for triangles: those of a box around each.
+fn covered(triangles: &[[Vec3; 3]], cells_per_length: f32) -> f64 {
+    let cells = |[a, b, c]: &[Vec3; 3]| {
+        let [x, y] = ((a.max(*b).max(*c) - a.min(*b).min(*c)).truncate() * cells_per_length + 1.0).to_array();
+        f64::from(x) * f64::from(y)
+    };
+    triangles.iter().map(cells).sum()
+}
+
 /// The nearest depth at the middle of each cell; −∞ where there is nothing.
-fn depth_map(triangles: &[[Vec3; 3]], place: &dyn Fn(Vec3) -> Vec2) -> Vec<f32> {
-    let mut depths = vec![f32::NEG_INFINITY; SIDE * SIDE];
+fn depth_map(triangles: &[[Vec3; 3]], side: usize, place: &dyn Fn(Vec3) -> Vec2) -> Vec<f32> {
+    let mut depths = vec![f32::NEG_INFINITY; side * side];
     for corners in triangles {
         let [a, b, c] = corners.map(place);
         let area = (b - a).perp_dot(c - a);
@@ -121,14 +144,14 @@ fn depth_map(triangles: &[[Vec3; 3]], place: &dyn Fn(Vec3) -> Vec2) -> Vec<f32> 
             continue;
         }
         let from = (a.min(b).min(c) - 0.5).ceil().max(Vec2::ZERO).as_usizevec2();
-        let to = (a.max(b).max(c) + 0.5).ceil().max(Vec2::ZERO).as_usizevec2().min(glam::USizeVec2::splat(SIDE));
+        let to = (a.max(b).max(c) + 0.5).ceil().max(Vec2::ZERO).as_usizevec2().min(glam::USizeVec2::splat(side));
         for y in from.y..to.y {
             for x in from.x..to.x {
                 let middle = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
                 let weights = [(b - middle).perp_dot(c - middle), (c - middle).perp_dot(a - middle), (a - middle).perp_dot(b - middle)];
                 if weights.iter().all(|weight| weight / area >= 0.0) {
                     let depth = (0..3).map(|k| corners[k].z * weights[k]).sum::<f32>() / area;
-                    let here = &mut depths[y * SIDE + x];
+                    let here = &mut depths[y * side + x];
                     *here = here.max(depth);
                 }
             }
@@ -186,5 +209,19 @@ mod tests {
         }
         let apart = (0..DIRECTIONS).flat_map(|k| (0..k).map(move |l| direction_of(k).angle_between(direction_of(l))));
         assert!(apart.fold(f32::INFINITY, f32::min) > 0.6);
+    }
+
+    #[test]
+    fn many_triangles_on_one_another_get_a_coarser_map() {
+        let one = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        let side = |triangles: usize| side_of(&vec![one; triangles], 1.0);
+        assert_eq!([side(1), side(200), side(2_000), side(100_000)], [SIDE, SIDE, 64, 8]);
+        assert!(covered(&vec![one; 100_000], side(100_000) as f32) <= MOST_CELLS);
+        // None of them hides another.
+        assert!(seen_in(&vec![one; 100_000], Vec3::Z).iter().all(|seen| *seen));
+        let ball = shapes::icosphere(20_000, Material::default());
+        let corners: Vec<[Vec3; 3]> =
+            ball.triangles.iter().map(|triangle| triangle.map(|i| Vec3::from(ball.vertices[i as usize].position))).collect();
+        assert_eq!(side_of(&corners, 1.0), SIDE);
     }
 }

@@ -33,6 +33,7 @@ use crate::scene::ship::{MAX_START_MOMENTUM, ShipSpec};
 use crate::spacetime::frames;
 use crate::spacetime::matter::ShipState;
 use crate::spacetime::metric::river_speed;
+use crate::user_file::short;
 
 /// The nearest a camera may start to the singularity, in r_s.
 pub const MIN_CAMERA_RADIUS: f64 = 0.02;
@@ -88,7 +89,7 @@ impl Default for SceneCamera {
 
 /// The size of a picture, `WIDTHxHEIGHT`.
 pub fn picture_size(text: &str) -> Result<[u32; 2], String> {
-    let wrong = || format!("`{text}` is no size: WIDTHxHEIGHT in pixels, each from 1 to 8192, as 1280x720");
+    let wrong = || format!("`{}` is no size: WIDTHxHEIGHT in pixels, each from 1 to 8192, as 1280x720", short(text));
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
     let side = |text: &str| text.parse().ok().filter(|side| (1..=8192).contains(side)).ok_or_else(wrong);
     Ok([side(width)?, side(height)?])

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use crate::user_file::{brief, short};
+
 /// One wrong entry of a TOML file: `game.toml:12: render.orders: 7 is out of range, allowed 1 to 3`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Complaint {
@@ -46,7 +48,7 @@ impl fmt::Display for Complaints {
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     /// Neither a scene of that name nor a file.
-    #[error("no scene {name:?}: {tried}; known scenes: {known}")]
+    #[error("no scene {:?}: {}; known scenes: {known}", short(name), brief(tried))]
     NotFound {
         /// What was asked for.
         name: String,

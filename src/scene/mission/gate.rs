@@ -11,8 +11,8 @@ use glam::DVec3;
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::scene::document::exactly_or_none;
 use crate::scene::document::fault::{Fault, fault, in_range};
+use crate::scene::document::{exactly, exactly_or_none};
 
 /// A ring held in place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +41,7 @@ impl Gate {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GateEntry {
+    #[serde(deserialize_with = "exactly")]
     position: Spanned<[f64; 3]>,
     radius: Spanned<f64>,
     #[serde(default, deserialize_with = "exactly_or_none")]

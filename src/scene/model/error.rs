@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use crate::user_file::{FileFault, short};
+use crate::user_file::{FileFault, brief, short};
 
 /// Why a model could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ModelError {
     /// The file cannot be read.
-    #[error("model {}: {source}", path.display())]
+    #[error("model {}: {source}", brief(&path.to_string_lossy()))]
     Read {
         /// The file.
         path: PathBuf,
@@ -16,7 +16,7 @@ pub enum ModelError {
         source: FileFault,
     },
     /// Malformed.
-    #[error("model {}: {}", path.display(), short(&source.to_string()))]
+    #[error("model {}: {}", brief(&path.to_string_lossy()), short(&source.to_string()))]
     Gltf {
         /// The file.
         path: PathBuf,
@@ -24,7 +24,7 @@ pub enum ModelError {
         source: gltf::Error,
     },
     /// Readable, but of no use.
-    #[error("model {}: {reason}", path.display())]
+    #[error("model {}: {reason}", brief(&path.to_string_lossy()))]
     Unusable {
         /// The file.
         path: PathBuf,

@@ -98,6 +98,16 @@ impl Model {
         self.vertices.iter().map(|vertex| glam::Vec3::from(vertex.position).length()).fold(0.0, f32::max)
     }
 
+    /// Bytes that it takes, an image that several materials share once.
+    pub fn bytes(&self) -> usize {
+        let mut images: Vec<&Arc<Image>> = self.materials.iter().filter_map(|material| material.texture.as_ref()).collect();
+        images.sort_by_key(|image| Arc::as_ptr(image));
+        images.dedup_by_key(|image| Arc::as_ptr(image));
+        let triangle = size_of::<[u32; 3]>() + size_of::<u32>();
+        let pixels: usize = images.iter().map(|image| image.rgba.len()).sum();
+        self.vertices.len() * size_of::<Vertex>() + self.triangles.len() * triangle + pixels
+    }
+
     /// `None` if the model is sound, or what is wrong with it: indices out of range, lengths that disagree, numbers that are not finite.
     pub fn fault(&self) -> Option<&'static str> {
         let corners = self.vertices.len() as u32;

@@ -27,6 +27,8 @@ pub use packing::Record;
 
 /// The version of the format.
 const FORMAT: u32 = 1;
+/// The most steps of a flight: up to T = 1e5 r_s/c with the usual step. Each takes some 180 bytes a ship when it is flown again.
+pub const MOST_STEPS: u64 = 3_200_001;
 /// The sections of `game.toml` that a flight depends on.
 const SECTIONS: [&str; 5] = ["clock", "ship", "enemy", "assist", "rules"];
 
@@ -204,6 +206,10 @@ impl Replay {
         let before = text.find("check = ").map_or(text, |end| &text[..end]);
         if file.check != format!("{:08x}", crc32fast::hash(before.as_bytes())) {
             return Err(damaged("it is damaged: its checksum is another one".into()));
+        }
+        // It would be flown for years.
+        if file.ticks > MOST_STEPS {
+            return Err(damaged(format!("ticks = {}, allowed 0 to {MOST_STEPS}", file.ticks)));
         }
         let log = BASE64.decode(file.log.as_bytes()).map_err(|_| damaged("its log is damaged".into()))?;
         Ok(Replay {
@@ -430,6 +436,12 @@ mod tests {
         for (place, text) in wrong.iter().enumerate() {
             let said = Replay::from_text(Path::new("a.toml"), text).expect_err("refused").to_string();
             assert!(said.starts_with("a.toml: ") && !said.contains('\n'), "{place}: {said}");
+        }
+        for (ticks, is_right) in [(MOST_STEPS, true), (MOST_STEPS + 1, false), (i64::MAX as u64, false)] {
+            let text = Replay { ticks, ..replay(vec![]) }.to_text();
+            let said = Replay::from_text(Path::new("a.toml"), &text).err().map(|wrong| wrong.to_string());
+            let wanted = format!("a.toml: ticks = {ticks}, allowed 0 to 3200001");
+            assert_eq!(said, (!is_right).then_some(wanted));
         }
         // Any byte of the log.
         let at = good.find("log = ").expect("a log") + 40;
