@@ -1,5 +1,6 @@
 //! All integration tests in one binary (linking is the slow part); the folders mirror `src/`.
 
+mod doors;
 #[cfg(feature = "game")]
 mod gpu;
 mod house;
@@ -23,4 +24,5 @@ mod support;
 mod twin;
 #[cfg(feature = "game")]
 mod window;
+#[cfg(feature = "game")]
 mod words;

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::snapshot::{Snapshot, SnapshotError};
 use super::{History, Moment};
 use crate::scene::model::import::model_file;
-use crate::scene::{GameConfig, Scene, SceneError};
+use crate::scene::{GameConfig, Scene};
 
 /// A snapshot, flown again.
 pub struct Restored {
@@ -28,7 +28,7 @@ impl Restored {
             Some(text) => {
                 let name = format!("{}.toml", flight.scene);
                 let mut scene =
-                    Scene::from_toml(Path::new(&name), text).map_err(|wrong| SnapshotError::Flight(SceneError::Invalid(wrong).into()))?;
+                    Scene::from_toml(Path::new(&name), text).map_err(|wrong| damaged(format!("the scene that it carries: {wrong}")))?;
                 if scene.fingerprint != flight.fingerprint {
                     return Err(damaged("the scene that it carries is not the one of its flight".into()));
                 }

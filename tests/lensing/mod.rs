@@ -3,6 +3,7 @@
 mod integrator;
 mod methods;
 mod project;
+#[cfg(feature = "game")]
 mod slices;
 mod stability;
 mod tables;

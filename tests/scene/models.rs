@@ -177,6 +177,17 @@ fn a_model_is_refused_by_place_value_and_range() {
         (r#""count":3,"type":"SCALAR""#, r#""count":0,"type":"SCALAR""#, ["accessors[1].count = 0", "1 or more"]),
         (r#""count":3,"type":"VEC3""#, r#""count":3,"type":"VEC2""#, ["attributes.POSITION = 0", "three floats"]),
         (r#""POSITION":0"#, r#""POSITION":0,"TEXCOORD_0":1"#, ["attributes.TEXCOORD_0 = 1", "two floats"]),
+        (r#""POSITION":0"#, r#""POSITION":9"#, ["meshes[0].primitives[0].attributes.POSITION = 9", "there are 2 accessors"]),
+        (
+            r#""emissiveFactor":[1,0.5,0]}]"#,
+            r#""emissiveTexture":{"index":0}}],"textures":[{"source":0}],"images":[{}]"#,
+            ["images[0]", "neither a uri nor"],
+        ),
+        (
+            r#""emissiveFactor":[1,0.5,0]}]"#,
+            r#""emissiveTexture":{"index":0}}],"textures":[{"source":0}],"images":[{"bufferView":0}]"#,
+            ["images[0]", "neither PNG nor JPEG"],
+        ),
         (r#""POSITION":0"#, r#""NORMAL":0"#, ["attributes[\"POSITION\"]", "Missing data"]),
         (r#""byteOffset":36"#, r#""byteOffset":40"#, ["bufferViews[1]: 6 bytes from 40 on", "the 42 of its buffer"]),
         (r#""byteOffset":36"#, r#""byteOffset":18446744073709551615"#, ["bufferViews[1]: 6 bytes from 18446744073709551615", "42"]),

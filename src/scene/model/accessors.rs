@@ -7,6 +7,19 @@ use gltf::json::{Index, Root};
 
 use super::MOST_TRIANGLES;
 
+/// Whether the accessors of all positions are there.
+pub fn check_positions(root: &Root) -> Result<(), String> {
+    for (m, mesh) in root.meshes.iter().enumerate() {
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            let count = root.accessors.len();
+            if let Some(index) = attribute(primitive, Semantic::Positions).map(|index| index.value()).filter(|index| *index >= count) {
+                return Err(format!("meshes[{m}].primitives[{p}].attributes.POSITION = {index}: there are {count} accessors"));
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Checks views, accessors and primitives; what is wrong names its place. The indices of the document must be valid.
 pub fn check(root: &Root) -> Result<(), String> {
     for (k, view) in root.buffer_views.iter().enumerate() {

@@ -232,16 +232,15 @@ fn read_material(material: &gltf::Material<'_>, texture: Option<Arc<Image>>) -> 
 
 /// An image as 8-bit RGBA, of at most `left` bytes.
 fn read_image(file: &mut GltfFile, index: usize, left: u64) -> Result<Image, String> {
-    let told = file.document.as_json().images.get(index).and_then(|image| image.uri.clone());
-    let bytes = match told {
+    // Not asked of the reader, which takes one of the two and a kind to be there.
+    let told = file.document.as_json().images.get(index).map(|image| (image.uri.clone(), image.buffer_view));
+    let (uri, view) = told.unwrap_or_default();
+    let bytes = match uri {
         Some(uri) => file.fetch(&uri).map_err(|wrong| format!(".uri = {:?}: {wrong}", short(&uri)))?,
         None => {
-            let image = file.document.images().nth(index);
-            let view = image.and_then(|image| match image.source() {
-                gltf::image::Source::View { view, .. } => file.view(&view),
-                gltf::image::Source::Uri { .. } => None,
-            });
-            view.ok_or(" is not in its buffer")?.to_vec()
+            let view = view.ok_or(" has neither a uri nor a bufferView")?;
+            let view = file.document.views().nth(view.value());
+            view.and_then(|view| file.view(&view)).ok_or(" is not in its buffer")?.to_vec()
         }
     };
     let format = image::guess_format(&bytes).ok().filter(|format| matches!(format, ImageFormat::Png | ImageFormat::Jpeg));

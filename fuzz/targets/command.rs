@@ -1,0 +1,7 @@
+//! Words of the command line.
+#![no_main]
+
+use lensrunner_fuzz::{doors, mutate};
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| doors::knock("command", bytes));
+libfuzzer_sys::fuzz_mutator!(|data: &mut [u8], size: usize, most: usize, seed: u32| { mutate::text(data, size, most, seed) });
