@@ -13,7 +13,7 @@ pub const COLUMNS: [&str; 8] = ["class", "scene", "T", "knob", "step", "FLIP", "
 /// The error that is the price: the greatest but one in a hundred,
 const BOUND: f64 = 0.99;
 /// and so much more: a few moments seldom have the worst.
-const MARGIN: f64 = 1.8;
+const MARGIN: f64 = 1.2;
 
 /// Measures every step at `moments` moments of each class; `said` hears how far it has come, `keep` gets the
 /// rows after each moment.

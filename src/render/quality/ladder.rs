@@ -22,7 +22,7 @@ pub struct Rung {
 const LEAST_SAVED: f64 = 0.01;
 
 /// Added to the error of any rung but the finest: what single moments differ by where a knob mostly changes nothing.
-const LEAST_ERROR: f64 = 0.006;
+const LEAST_ERROR: f64 = 0.003;
 
 impl Rung {
     fn at(prices: &Prices, class: SceneClass, steps: Steps) -> Rung {
