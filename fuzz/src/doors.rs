@@ -243,21 +243,21 @@ pub fn command(bytes: &[u8]) -> Result<(), String> {
     let text = String::from_utf8_lossy(bytes);
     let words: Vec<&str> = text.lines().collect();
     let mut result = Ok(());
-    let mut see = |found: Result<(), String>| {
-        if let Err(wrong) = found {
-            result = Err(format!("door: {wrong}"));
-        }
-    };
     for word in &words {
-        see(Assignment::from_str(word).map(|set| {
+        let set = Assignment::from_str(word).map(|set| {
             let again: Assignment = set.to_string().parse().expect("its own text");
             assert_eq!(again.value, set.value);
-        }));
-        see(Axis::from_str(word).map(|axis| assert!(!axis.values.is_empty())));
-        see(Crew::from_str(word).map(|_| ()));
-        see(Difficulty::from_str(word).map(|_| ()));
-        see(scene::picture_size(word).map(|_| ()));
+        });
+        let axis = Axis::from_str(word).map(|axis| assert!(!axis.values.is_empty()));
+        let name = Crew::from_str(word).map(|_| ());
+        let all = [set, axis, name, Difficulty::from_str(word).map(|_| ()), scene::picture_size(word).map(|_| ())];
         _ = scene::file(word);
+        for wrong in all.iter().filter_map(|found| found.as_ref().err()) {
+            assert!(wrong.len() <= LONGEST, "{} bytes: {wrong}", wrong.len());
+            if !all.contains(&Ok(())) {
+                result = Err(format!("door: {wrong}"));
+            }
+        }
     }
     _ = arguments::<check::CheckArgs>(&words);
     _ = arguments::<balance::BalanceArgs>(&words);

@@ -146,7 +146,7 @@ const MOST_NAME: usize = 1024;
 fn check_models(entry: &SceneFile) -> Result<(), Fault> {
     let ships = entry.ship.iter().filter_map(|ship| ship.get_ref().model());
     let mut known = HashSet::new();
-    for model in ships.chain(entry.prop.iter().map(|prop| prop.get_ref().model())) {
+    for model in ships.chain(entry.prop.iter().filter_map(|prop| prop.get_ref().file())) {
         let length = model.get_ref().len();
         if !(1..=MOST_NAME).contains(&length) {
             return fault(model, format!("the model's name has {length} bytes, allowed 1 to {MOST_NAME}"));

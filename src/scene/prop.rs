@@ -120,9 +120,9 @@ pub struct PropEntry {
 }
 
 impl PropEntry {
-    /// What it says of its shape, and where.
-    pub(super) fn model(&self) -> &Spanned<String> {
-        &self.model
+    /// The file of its model, and where it is named; none of a shape.
+    pub(super) fn file(&self) -> Option<&Spanned<String>> {
+        Some(&self.model).filter(|model| is_file(model.get_ref()))
     }
 }
 
@@ -170,6 +170,11 @@ fn number(value: &Option<Spanned<f64>>, key: &str, range: RangeInclusive<f64>, u
     value.as_ref().map_or(Ok(default), |value| in_range(value, key, range, unit))
 }
 
+/// Whether the name of a model is that of a file.
+fn is_file(model: &str) -> bool {
+    model.ends_with(".glb") || model.ends_with(".gltf")
+}
+
 fn shape(entry: &PropEntry) -> Result<Shape, Fault> {
     let triangles = match &entry.triangles {
         Some(count) if !(2..=MAX_TRIANGLES_EACH).contains(count.get_ref()) => {
@@ -184,7 +189,7 @@ fn shape(entry: &PropEntry) -> Result<Shape, Fault> {
         "icosphere" => Shape::Icosphere(triangles.unwrap_or(320)),
         "lattice" => Shape::Icosphere(triangles.unwrap_or(20)),
         "square" => Shape::Square(triangles.unwrap_or(200), entry.anchor.as_ref().map(|anchor| *anchor.get_ref()).unwrap_or_default()),
-        file if file.ends_with(".glb") || file.ends_with(".gltf") => Shape::File(file.to_owned()),
+        file if is_file(file) => Shape::File(file.to_owned()),
         _ => {
             return fault(
                 &entry.model,
