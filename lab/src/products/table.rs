@@ -283,16 +283,6 @@ pub const PRODUCTS: &[Product] = &[
         seconds: [600.0, 60.0],
     },
     Product {
-        name: "soak",
-        runs: &[lab("chart soak -o {}")],
-        quick: &[lab("chart soak --steps 1000 --frames 100 -o {}")],
-        folder: "lab",
-        files: &["soak.csv"],
-        grows: false,
-        sources: &[DRAWN, FLOWN, &["lab/src/soak.rs"]],
-        seconds: [900.0, 15.0],
-    },
-    Product {
         name: "drivers",
         runs: &[lab("chart drivers --driver /usr/lib/chromium/vk_swiftshader_icd.json -o {}")],
         // It needs a second driver.
