@@ -76,7 +76,7 @@ pub fn page(sheet: &Sheet) -> String {
             text.push_str(&format!("| {place} |{cells}\n"));
         }
     }
-    text.push_str("\n## Held by tests\n\nPlaces without another method beside ours. `--faults` is how each test is seen to fail.\n\n");
+    text.push_str("\n## Held by tests\n\nPlaces without another method beside ours. `--faults` tells which tests find their fault.\n\n");
     text.push_str("| part | place | what holds | test | fault that it finds |\n|---|---|---|---|---|\n");
     for held in HELD {
         let fault = held.fault;
