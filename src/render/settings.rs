@@ -31,6 +31,12 @@ pub struct Settings {
     /// Images of order 2 and 3 narrower than this are not drawn, in pixels. At 0.05 px they cover 5 % of a line of pixels. They are
     /// invisible among the stars at the edge of the shadow, yet cost more geometry than the ship itself.
     pub least_width: f64,
+    /// Factor on the errors that rings and arcs of the disk may have: greater ones make wider rings.
+    pub ring_error: f32,
+    /// Most positions along a pixel at which the gas of the disk is looked up: 16 near, 2 far, or fewer.
+    pub gas_looks: f32,
+    /// Share of the aurora's streaks that is drawn, wider in turn.
+    pub streaks: f32,
     /// Light changes its colour with g.
     pub doppler: bool,
     /// Light changes its strength with g.
@@ -107,6 +113,9 @@ impl Settings {
             thin_below: 1.0,
             coarse_below: 0.0,
             least_width: 0.05,
+            ring_error: 1.0,
+            gas_looks: 16.0,
+            streaks: 1.0,
             doppler: true,
             beaming: true,
             stars: true,

@@ -103,7 +103,7 @@ impl Stage {
                     _ => stand_ins(model).into_iter().map(|coarser| (MOST_MOVED / coarser.moved, coarser.model)).collect(),
                 };
                 let fine = add(model);
-                let stand_in = |(below, model): &(f64, Model)| StandIn { below: *below, is_closed: is_globe, model: add(model) };
+                let stand_in = |(below, model): &(f64, Model)| StandIn { below: *below, model: add(model) };
                 let stand_ins: Vec<StandIn> = coarser.iter().map(stand_in).collect();
                 LevelsOfDetail { model: fine, coarse: stand_ins.first().map_or(fine, |coarsest| coarsest.model), stand_ins }
             })

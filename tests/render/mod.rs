@@ -12,6 +12,7 @@ mod models;
 mod pictures;
 mod post_process;
 mod stars;
+mod steady;
 mod support;
 mod trouble;
 mod upscale;

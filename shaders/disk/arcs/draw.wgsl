@@ -146,12 +146,13 @@ const WIDE: f32 = 1e5;
 @fragment
 fn near_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
     let here = of_ring(in, ring);
-    let at = streaks_of(in, here.height, STEP * f32(CLOSE_TAPS));
+    let most = min(disk.light.z, f32(CLOSE_TAPS));
+    let at = streaks_of(in, here.height, STEP * most);
     let long = sqrt(at.long);
     let share = smoothstep(LONG.x, LONG.y, long);
     // Positions that do not count are not looked up.
-    let far = far_along(at, select(0u, taps_of(at, CLOSE_TAPS), share > 0.0));
-    let near = near_along(at, select(0u, u32(clamp(ceil(long / FINE_STEP), 1.0, FINE_TAPS)), share < 1.0));
+    let far = far_along(at, select(0u, taps_of(at, u32(most)), share > 0.0));
+    let near = near_along(at, select(0u, u32(clamp(ceil(long / FINE_STEP), 1.0, min(FINE_TAPS, most))), share < 1.0));
     let cooling = Cooling(mix(near.power, far.power, share), mix(near.unseen, far.unseen, share));
     let depth = here.depth * disk_slant(in.seen.w, in.seen.z, near_half_height(here.height));
     let part = select(coverage(in.seen.x, in.seen.y) * disk.gas.y, in.seen.x, in.seen.y > WIDE);

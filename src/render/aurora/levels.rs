@@ -8,7 +8,7 @@
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
-use crate::render::gpu::layout::{Raster, Slot, bind, buffer, layout, module, raster};
+use crate::render::gpu::layout::{Raster, Slot, bind, buffer, layout, module, new_texture, raster};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::target;
 use crate::render::gpu::timing::Timing;
@@ -179,14 +179,17 @@ const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
 /// The texture of ranges for a screen of a size, one mip level per size of depth tiles; its sides are whole numbers of the largest tiles.
 fn texture(device: &wgpu::Device, size: [u32; 2]) -> wgpu::Texture {
     let [width, height] = size.map(|side| side.next_multiple_of(LEAST_DEPTH_TILE << (DEPTH_TILES - 1)) / LEAST_DEPTH_TILE);
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("aurora ranges"),
-        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: DEPTH_TILES,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: FORMAT,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    })
+    new_texture(
+        device,
+        &wgpu::TextureDescriptor {
+            label: Some("aurora ranges"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: DEPTH_TILES,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        },
+    )
 }

@@ -28,6 +28,14 @@ pub struct Within {
     stopped: f64,
 }
 
+impl Within {
+    /// All limits times `factor`.
+    pub fn times(self, factor: f64) -> Within {
+        let Within { across, along, light, stopped } = self;
+        Within { across: across * factor, along: along * factor, light: light * factor, stopped: stopped * factor }
+    }
+}
+
 /// For a far camera, and for orders 2 and 3 from everywhere. Narrower rings make images of order 2 and 3 no more exact from near either,
 /// because these images are compressed across the orbit.
 pub const FROM_FAR: Within = Within { across: 0.15, along: 4.0, light: 0.005, stopped: 0.015 };

@@ -1,6 +1,7 @@
 //! The pattern of the gas as textures.
 
 use crate::render::Gpu;
+use crate::render::gpu::layout::new_texture;
 use std::sync::LazyLock;
 
 use crate::scene::disk::DETAIL;
@@ -121,16 +122,19 @@ fn side_by_side<T: Copy + Default>(levels: &[WidthLevel], as_bits: impl Fn(f32) 
 /// A texture of this width and height with these bytes.
 fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, [width, height]: [u32; 2], bytes: &[u8]) -> wgpu::TextureView {
     let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(label),
-        size,
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
+    let texture = new_texture(
+        &gpu.device,
+        &wgpu::TextureDescriptor {
+            label: Some(label),
+            size,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        },
+    );
     let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(bytes.len() as u32 / height), rows_per_image: None };
     gpu.queue.write_texture(texture.as_image_copy(), bytes, layout, size);
     texture.create_view(&Default::default())

@@ -72,20 +72,21 @@ impl DiskView {
         for order in 1..=3 {
             // The third order is drawn, behind the second, even if the settings do not ask for it, where it is wider than the pixel budget.
             let look = Look { disk, camera, slice, order, width, beaming: input.settings.beaming };
+            let ring_error = f64::from(input.settings.ring_error);
             let unasked = order > input.settings.orders;
             if unasked && (order < 3 || input.settings.orders < 2 || widest(&look) < f64::from(input.settings.pixel_error)) {
                 continue;
             }
-            view.add_image(&look, &plane);
+            view.add_image(&look, &plane, ring_error);
         }
         let count = view.circles.len() as u32;
         view.circles.iter_mut().for_each(|circle| circle.rows[3] += count);
-        view.frame = view.frame(disk, input.time, &plane);
+        view.frame = view.frame(disk, input, &plane);
         view
     }
 
-    /// Adds the circles, rings and samples of one image order.
-    fn add_image(&mut self, look: &Look, plane: &Plane) {
+    /// Adds the circles, rings and samples of one image order; rings may be off by `ring_error` times as much as at the finest.
+    fn add_image(&mut self, look: &Look, plane: &Plane, ring_error: f64) {
         let Look { disk, camera, order, width, .. } = *look;
         let first = self.circles.len() as u32;
         let seen: Vec<SeenCircle> = radii(disk, order <= self.close).into_iter().map(|r| look.circle(r)).collect();
@@ -94,7 +95,8 @@ impl DiskView {
         let rows = if gaps {
             Circles::straight(if order == 1 { disk.arcs.circles.clone() } else { gap_middles(disk) }, disk.arcs.rings.clone())
         } else {
-            look.rows(&seen, &own, if order == 1 && self.close > 0 { FROM_NEAR } else { FROM_FAR })
+            let within = if order == 1 && self.close > 0 { FROM_NEAR } else { FROM_FAR };
+            look.rows(&seen, &own, within.times(ring_error))
         };
         let last = first + rows.radii.len() as u32 - 1;
         let behind = self.samples.len() as u32;
@@ -120,7 +122,8 @@ impl DiskView {
 
     /// What the shaders are told, once all images are added. The camera's time is counted from the first generation of
     /// streaks that can be seen.
-    fn frame(&self, disk: &Disk, time: f64, plane: &Plane) -> DiskFrame {
+    fn frame(&self, disk: &Disk, input: &FrameInput, plane: &Plane) -> DiskFrame {
+        let (time, settings) = (input.time, &input.settings);
         let [_, end] = disk.gas.extent();
         let nearest = (plane.l - end).max(0.0);
         let base = ((time - nearest - 2.0 * end - DETOUR) / RENEWAL).floor() - 1.0;
@@ -132,11 +135,16 @@ impl DiskView {
             sideways: row(plane.sideways, plane.level),
             upwards: row(plane.upwards, plane.height.abs()),
             renewal: [(time / RENEWAL - base) as f32, (1.0 / RENEWAL) as f32, RENEWAL as f32, SHEARED as f32],
-            gas: [disk.gas.contrast as f32, 1.0 - disk.config.gap as f32, disk.config.error_budget as f32, disk.min_width as f32],
+            gas: [
+                disk.gas.contrast as f32,
+                1.0 - disk.config.gap as f32,
+                disk.config.error_budget as f32 * settings.ring_error,
+                disk.min_width as f32,
+            ],
             sizes: [2 * cuts - 1, cuts - 1, self.circles.len() as u32, self.rings.len() as u32],
             regions: [0; 4],
             room: [0, self.close, (disk.gas.thickness as f32).to_bits(), 0],
-            light: [DISK_UNIT as f32, CLOSE as f32, 0.0, 0.0],
+            light: [DISK_UNIT as f32, CLOSE as f32, settings.gas_looks, 0.0],
             offset: [x, y, OFFSET_STEP[0], OFFSET_STEP[1]].map(|value| value as f32),
         }
     }

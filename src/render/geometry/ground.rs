@@ -6,7 +6,7 @@ use wgpu::BufferUsages;
 
 use crate::render::Gpu;
 use crate::render::aurora::ground::{GroundFrame, GroundLight};
-use crate::render::gpu::layout::buffer;
+use crate::render::gpu::layout::{buffer, new_texture};
 
 /// The map and its numbers on the GPU.
 #[derive(Debug)]
@@ -57,16 +57,19 @@ impl GroundBuffers {
 
 /// A square map of 16-bit floats: all adapters can interpolate them.
 fn map(device: &wgpu::Device, size: u32) -> (wgpu::Texture, wgpu::TextureView) {
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("ground light"),
-        size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rg16Float,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
+    let texture = new_texture(
+        device,
+        &wgpu::TextureDescriptor {
+            label: Some("ground light"),
+            size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rg16Float,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        },
+    );
     let view = texture.create_view(&Default::default());
     (texture, view)
 }

@@ -1,11 +1,33 @@
 //! Short forms for bind groups and pipelines: what each pass would otherwise repeat.
 
 use std::borrow::Cow;
+use std::cell::Cell;
 
 use wgpu::{
     BindGroupLayoutEntry, BindingResource, BindingType, Buffer, BufferBindingType, BufferUsages, SamplerBindingType, ShaderStages,
     TextureSampleType, TextureViewDimension,
 };
+
+thread_local! {
+    static MADE: Cell<u64> = const { Cell::new(0) };
+}
+
+/// How many buffers, textures, bind groups, shader modules and pipelines this thread has had made so far: a frame in which nothing new
+/// appears makes none.
+pub fn made() -> u64 {
+    MADE.get()
+}
+
+/// Counts something that was made.
+fn counted<T>(thing: T) -> T {
+    MADE.set(MADE.get() + 1);
+    thing
+}
+
+/// A texture.
+pub fn new_texture(device: &wgpu::Device, descriptor: &wgpu::TextureDescriptor) -> wgpu::Texture {
+    counted(device.create_texture(descriptor))
+}
 
 /// One entry of a layout: its kind, and who sees it.
 #[derive(Clone, Copy, Debug)]
@@ -83,7 +105,7 @@ pub fn bind(device: &wgpu::Device, label: &str, layout: &wgpu::BindGroupLayout, 
         .enumerate()
         .map(|(binding, resource)| wgpu::BindGroupEntry { binding: binding as u32, resource: resource.clone() })
         .collect();
-    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
+    counted(device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries }))
 }
 
 /// The least size of a buffer, in bytes: an empty list still has room for one of the largest rows that a shader reads.
@@ -91,12 +113,12 @@ const LEAST: u64 = 512;
 
 /// A buffer of `size` bytes, or of the least size.
 pub fn buffer(device: &wgpu::Device, label: &str, size: u64, usage: BufferUsages) -> Buffer {
-    device.create_buffer(&wgpu::BufferDescriptor {
+    counted(device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
         size: size.max(LEAST).next_multiple_of(16),
         usage: usage | BufferUsages::COPY_DST | BufferUsages::COPY_SRC,
         mapped_at_creation: false,
-    })
+    }))
 }
 
 /// A storage buffer filled with `data`.
@@ -208,7 +230,7 @@ const TEXEL: usize = 16;
 
 /// A texture for a table of `count` texels: as wide as they are, or of so many rows.
 fn table_texture(device: &wgpu::Device, label: &str, format: wgpu::TextureFormat, count: usize) -> (wgpu::Texture, wgpu::TextureView) {
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
+    let descriptor = wgpu::TextureDescriptor {
         label: Some(label),
         size: wgpu::Extent3d {
             width: count.clamp(1, TABLE_ROW) as u32,
@@ -221,7 +243,8 @@ fn table_texture(device: &wgpu::Device, label: &str, format: wgpu::TextureFormat
         format,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
-    });
+    };
+    let texture = new_texture(device, &descriptor);
     let view = texture.create_view(&Default::default());
     (texture, view)
 }
@@ -247,14 +270,14 @@ pub fn compute_of(
 ) -> wgpu::ComputePipeline {
     let module = module_of(device, label, shader);
     let layout = pipeline_layout(device, label, layouts);
-    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+    counted(device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(label),
         layout: Some(&layout),
         module: &module,
         entry_point: Some(entry),
         compilation_options: Default::default(),
         cache: None,
-    })
+    }))
 }
 
 /// The shader module of a pass.
@@ -264,7 +287,8 @@ pub fn module(device: &wgpu::Device, label: &str, pass: crate::render::gpu::shad
 
 /// The shader module of a composed shader.
 pub fn module_of(device: &wgpu::Device, label: &str, shader: wgpu::naga::Module) -> wgpu::ShaderModule {
-    device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source: wgpu::ShaderSource::Naga(Cow::Owned(shader)) })
+    let source = wgpu::ShaderSource::Naga(Cow::Owned(shader));
+    counted(device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source }))
 }
 
 /// A pipeline layout of these groups.
@@ -319,7 +343,7 @@ pub fn raster_of(
         .iter()
         .map(|&(format, blend)| Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL }))
         .collect();
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+    counted(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(label),
         layout: Some(&layout),
         vertex: wgpu::VertexState { module, entry_point: Some(raster.vertex), compilation_options: Default::default(), buffers },
@@ -340,5 +364,5 @@ pub fn raster_of(
         }),
         multiview_mask: None,
         cache: None,
-    })
+    }))
 }

@@ -1,6 +1,6 @@
 //! The textures that a frame is drawn into, all of the size of the output.
 
-use crate::render::gpu::layout::{DEPTH_FORMAT, HDR_FORMAT, SIGNED_FORMAT};
+use crate::render::gpu::layout::{DEPTH_FORMAT, HDR_FORMAT, SIGNED_FORMAT, new_texture};
 
 /// Format of the layers of a picture.
 pub const LAYERS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
@@ -113,16 +113,19 @@ impl Targets {
 
 /// A texture that is drawn into, sampled and copied from.
 pub fn target(device: &wgpu::Device, label: &str, size: [u32; 2], format: wgpu::TextureFormat) -> (wgpu::Texture, wgpu::TextureView) {
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(label),
-        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    });
+    let texture = new_texture(
+        device,
+        &wgpu::TextureDescriptor {
+            label: Some(label),
+            size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        },
+    );
     let view = texture.create_view(&Default::default());
     (texture, view)
 }

@@ -42,17 +42,11 @@ pub enum Motion<'a> {
     Flying(&'a History),
 }
 
-/// Where no more than this is allowed, in pixels, stand-ins that are not closed are not drawn.
-const GAPING_ERROR: f32 = 1.0;
-
 /// A coarse model for small images.
 #[derive(Clone, Copy, Debug)]
 pub struct StandIn {
     /// For images up to this width, in pixels, where half a pixel is allowed, and in proportion.
     pub below: f64,
-    /// Its surface is as closed as that of the full one. Others are not for thin images, whose light is summed triangle by triangle: what
-    /// lies behind a gap would count.
-    pub is_closed: bool,
     /// The model.
     pub model: ModelRange,
 }
@@ -85,10 +79,7 @@ impl DrawnObject<'_> {
             return self.coarse;
         }
         let allowed = f64::from(settings.pixel_error) / 0.5;
-        let is_thin = width < settings.thin_below;
-        // Clustered ones open gaps and merge sides: the judge sees that at the game's own budget.
-        let may_gape = !is_thin && settings.pixel_error > GAPING_ERROR;
-        let fits = |stand_in: &&StandIn| width < allowed * stand_in.below && (stand_in.is_closed || may_gape);
+        let fits = |stand_in: &&StandIn| width < allowed * stand_in.below;
         self.stand_ins.iter().find(fits).map_or(self.model, |stand_in| stand_in.model)
     }
 }

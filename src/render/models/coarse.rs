@@ -1,93 +1,54 @@
-//! Coarse stand-ins for a model whose image is small: vertices clustered in cells (Rossignac & Borrel 1993).
+//! Coarse stand-ins for a model whose image is small.
 
-use std::collections::{HashMap, HashSet};
+use crate::render::models::collapse::Collapse;
+use crate::scene::Model;
 
-use glam::Vec3;
-
-use crate::scene::{Model, Vertex};
-
-/// Cells along the longest side of the model, the coarsest first.
-const CELLS: [u16; 4] = [6, 12, 24, 48];
-/// A model of fewer triangles needs no stand-in.
-const FEW: usize = 200;
 /// A stand-in has at most this share of the triangles of the next finer.
-const WORTH: f64 = 0.7;
-/// Normals that differ by less than about half of this are one, in the length of a unit vector: flat sides stay flat.
-const FLAT: f32 = 0.6;
+const SHARE: f64 = 0.5;
+/// A model of fewer triangles needs no stand-in.
+const FEW: usize = 60;
+/// No stand-in is farther from its model than this share of the diameter: what moves it farther is no longer its shape.
+const FARTHEST: f64 = 0.15;
 
 /// A model that stands in for a finer one.
 #[derive(Clone, Debug)]
 pub struct StandIn {
     /// The model.
     pub model: Model,
-    /// The farthest that a vertex was moved, as a share of the diameter of the finer model.
+    /// The farthest that a corner of the finer model lies from it, as a share of the diameter.
     pub moved: f64,
 }
 
 /// Stand-ins for a model, the coarsest first; none if it is small already.
 pub fn stand_ins(model: &Model) -> Vec<StandIn> {
-    if model.triangles.len() < FEW {
+    let diameter = 2.0 * f64::from(model.radius());
+    if model.triangles.len() < FEW || !(diameter > 0.0 && diameter.is_finite()) {
         return Vec::new();
     }
     let mut found: Vec<StandIn> = Vec::new();
-    let mut finer = model.triangles.len();
-    for cells in CELLS.into_iter().rev() {
-        let Some(coarser) = clustered(model, f32::from(cells)) else { continue };
-        if coarser.model.triangles.len() as f64 <= WORTH * finer as f64 {
-            finer = coarser.model.triangles.len();
-            found.push(coarser);
+    let mut collapse = Collapse::new(model);
+    loop {
+        let target = (SHARE * collapse.left() as f64) as usize;
+        let reached = target >= FEW / 2 && collapse.down_to(target);
+        let moved = collapse.moved() / diameter;
+        if !reached || moved > FARTHEST {
+            found.reverse();
+            return found;
         }
-    }
-    found.reverse();
-    found
-}
-
-/// The model with all vertices of a cell merged into their mean; None if nothing is left.
-fn clustered(model: &Model, cells: f32) -> Option<StandIn> {
-    let points = || model.vertices.iter().map(|vertex| Vec3::from(vertex.position));
-    let low = points().fold(Vec3::INFINITY, Vec3::min);
-    let high = points().fold(Vec3::NEG_INFINITY, Vec3::max);
-    let cell = (high - low).max_element().max(f32::MIN_POSITIVE) / cells;
-    let cell_of = |vertex: &Vertex| ((Vec3::from(vertex.position) - low) / cell).floor().as_ivec3().to_array();
-    // Cells are shared by materials and normals in position, so that the surface stays closed.
-    let mut means: HashMap<[i32; 3], (Vec3, f32)> = HashMap::new();
-    for vertex in &model.vertices {
-        let mean = means.entry(cell_of(vertex)).or_default();
-        mean.0 += Vec3::from(vertex.position);
-        mean.1 += 1.0;
-    }
-    let mean_of = |cell: [i32; 3]| means[&cell].0 / means[&cell].1;
-    let moved = model.vertices.iter().map(|vertex| mean_of(cell_of(vertex)).distance(Vec3::from(vertex.position))).fold(0.0, f32::max);
-    let mut result = Model { materials: model.materials.clone(), ..Model::default() };
-    let mut places: HashMap<([i32; 3], [i32; 3], u32), u32> = HashMap::new();
-    let mut seen = HashSet::new();
-    for (triangle, &material) in model.triangles.iter().zip(&model.triangle_materials) {
-        let corners = triangle.map(|index| model.vertices[index as usize]);
-        let cells = corners.map(|vertex| cell_of(&vertex));
-        let mut sorted = cells;
-        sorted.sort_unstable();
-        if sorted[0] == sorted[1] || sorted[1] == sorted[2] || !seen.insert(sorted) {
-            continue;
+        // Where the finer of two is no nearer the coarser serves.
+        while found.last().is_some_and(|finer| finer.moved >= moved) {
+            found.pop();
         }
-        let merged = [0, 1, 2].map(|k| {
-            let normal = (Vec3::from(corners[k].normal) / FLAT).round().as_ivec3().to_array();
-            *places.entry((cells[k], normal, material)).or_insert_with(|| {
-                result.vertices.push(Vertex { position: mean_of(cells[k]).to_array(), ..corners[k] });
-                result.vertices.len() as u32 - 1
-            })
-        });
-        result.triangles.push(merged);
-        result.triangle_materials.push(material);
+        found.push(StandIn { model: collapse.model(), moved: moved.max(f64::EPSILON) });
     }
-    let moved = f64::from(moved) / (2.0 * f64::from(model.radius())).max(f64::MIN_POSITIVE);
-    (!result.triangles.is_empty()).then_some(StandIn { model: result, moved })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::Material;
-    use crate::scene::model::shapes;
+    use crate::scene::model::import::load_or_placeholder;
+    use crate::scene::model::{SHIP_MODELS, shapes};
 
     #[test]
     fn stand_ins_are_small_sound_and_nearly_as_large() {
@@ -96,12 +57,35 @@ mod tests {
         assert!(all.len() > 1 && all[0].model.triangles.len() < 600, "{} of {}", all.len(), all[0].model.triangles.len());
         for StandIn { model, moved } in &all {
             assert_eq!(model.fault(), None);
-            assert!((model.radius() / fine.radius() - 1.0).abs() < 0.1);
-            // A cell's diagonal, of the sphere's diameter.
-            assert!(*moved > 0.0 && *moved < 3f64.sqrt() / 6.0, "{moved}");
+            assert!((model.radius() / fine.radius() - 1.0).abs() < 1e-5, "corners stay on the sphere");
+            assert!(*moved > 0.0 && *moved <= FARTHEST, "{moved}");
         }
         let finer = |pair: &[StandIn]| pair[0].moved > pair[1].moved && pair[0].model.triangles.len() < pair[1].model.triangles.len();
         assert!(all.windows(2).all(finer));
-        assert!(stand_ins(&shapes::icosphere(80, Material::default())).is_empty());
+        assert!(stand_ins(&shapes::icosphere(20, Material::default())).is_empty());
+    }
+
+    /// What shines keeps its place in each stand-in of the ships, and most of its surface.
+    #[test]
+    fn nozzles_stay() {
+        let shining = |model: &Model| -> f64 {
+            let area = |triangle: &[u32; 3]| {
+                let [a, b, c] = triangle.map(|vertex| glam::Vec3::from(model.vertices[vertex as usize].position));
+                f64::from((b - a).cross(c - a).length()) / 2.0
+            };
+            let shines = |material: u32| model.materials[material as usize].emissive != [0.0; 3];
+            let with_material = model.triangles.iter().zip(&model.triangle_materials);
+            with_material.filter(|(_, material)| shines(**material)).map(|(triangle, _)| area(triangle)).sum()
+        };
+        for name in SHIP_MODELS {
+            let (fine, fault) = load_or_placeholder(name);
+            assert!(fault.is_none(), "{name}");
+            let all = stand_ins(&fine);
+            assert!(all.len() >= 4 && all[0].model.triangles.len() * 16 <= fine.triangles.len() + 16, "{name}");
+            for StandIn { model, moved } in all {
+                let kept = shining(&model) / shining(&fine);
+                assert!(kept > 0.6 && model.fault().is_none(), "{name}: {} triangles, moved {moved}: {kept}", model.triangles.len());
+            }
+        }
     }
 }

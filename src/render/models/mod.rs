@@ -1,6 +1,7 @@
 //! Models on the GPU: vertices, edges and triangles of all models in shared buffers, materials, and their textures in one array.
 
 pub mod coarse;
+pub mod collapse;
 pub mod hiding;
 pub mod outside;
 
@@ -10,7 +11,7 @@ use std::sync::Arc;
 use crate::scene::model::{Image, Model};
 
 use crate::render::Gpu;
-use crate::render::gpu::layout::{Growing, TableTexture};
+use crate::render::gpu::layout::{Growing, TableTexture, new_texture};
 use crate::render::gpu::types::{Material, ModelTriangle, ModelVertex};
 use crate::render::models::hiding::seen_from;
 use crate::render::models::outside::{AGAINST, ALONG, OPEN, sides};
@@ -226,16 +227,19 @@ impl Models {
     /// No models yet.
     pub fn new(device: &wgpu::Device) -> Self {
         let storage = wgpu::BufferUsages::STORAGE;
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("surface textures"),
-            size: wgpu::Extent3d { width: TEXTURE_SIZE, height: TEXTURE_SIZE, depth_or_array_layers: TEXTURE_LAYERS },
-            mip_level_count: TEXTURE_SIZE.ilog2() + 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba8UnormSrgb,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
+        let texture = new_texture(
+            device,
+            &wgpu::TextureDescriptor {
+                label: Some("surface textures"),
+                size: wgpu::Extent3d { width: TEXTURE_SIZE, height: TEXTURE_SIZE, depth_or_array_layers: TEXTURE_LAYERS },
+                mip_level_count: TEXTURE_SIZE.ilog2() + 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: wgpu::TextureFormat::Rgba8UnormSrgb,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+                view_formats: &[],
+            },
+        );
         Models {
             set: ModelSet::default(),
             vertices: TableTexture::new(device, "model vertices", true),

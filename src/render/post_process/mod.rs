@@ -8,7 +8,7 @@ use wgpu::ShaderStages;
 
 use crate::render::Gpu;
 use crate::render::geometry::thin::{ThinLists, tiles_layout};
-use crate::render::gpu::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
+use crate::render::gpu::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, new_texture, raster};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::{Targets, tiles};
 use crate::render::passes::{Recording, colour};
@@ -261,16 +261,19 @@ fn outlines(gpu: &Gpu, size: [u32; 2]) -> wgpu::Buffer {
 
 /// A texture that the finished picture is copied into.
 fn display(device: &wgpu::Device, size: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("display"),
-        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    })
+    new_texture(
+        device,
+        &wgpu::TextureDescriptor {
+            label: Some("display"),
+            size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        },
+    )
 }
 
 /// Begins a pass that draws to `targets`, with everything set but its triangles: most passes have one, over the whole picture. It is timed

@@ -11,6 +11,12 @@ pub enum Knob {
     PixelError,
     /// Width from which images of bodies of order 2 and 3 are drawn.
     SecondImages,
+    /// Width of the rings of the disk, by their error.
+    Rings,
+    /// Positions along a pixel at which the gas of the disk is looked up.
+    Gas,
+    /// Streaks of the aurora.
+    Streaks,
     /// Stars, down to which light.
     Stars,
     /// Smooth outlines.
@@ -31,12 +37,28 @@ const LEAST_SIGMA: f32 = 0.45;
 const PIXEL_ERRORS: [f32; 4] = [1.0, 2.0, 4.0, 8.0];
 /// Width in drawn pixels from which images of bodies of order 2 and 3 are drawn, but no less than configured.
 const LEAST_WIDTHS: [f64; 4] = [0.0, 0.5, 2.0, f64::INFINITY];
+/// Factors on the errors of rings and arcs.
+const RING_ERRORS: [f32; 4] = [1.0, 2.0, 4.0, 8.0];
+/// Most positions along a pixel, but no more than configured.
+const LOOKS: [f32; 4] = [f32::INFINITY, 8.0, 4.0, 1.0];
+/// Shares of the streaks.
+const STREAKS: [f32; 4] = [1.0, 0.5, 0.25, 0.125];
 /// Faintest magnitudes, but none fainter than configured.
 const MAGNITUDES: [f32; 4] = [f32::INFINITY, 8.5, 7.5, 6.5];
 
 impl Knob {
     /// All of them.
-    pub const ALL: [Knob; 6] = [Knob::Resolution, Knob::PixelError, Knob::SecondImages, Knob::Stars, Knob::Outlines, Knob::Bloom];
+    pub const ALL: [Knob; 9] = [
+        Knob::Resolution,
+        Knob::PixelError,
+        Knob::SecondImages,
+        Knob::Rings,
+        Knob::Gas,
+        Knob::Streaks,
+        Knob::Stars,
+        Knob::Outlines,
+        Knob::Bloom,
+    ];
 
     /// Its name in tables.
     pub fn name(self) -> &'static str {
@@ -44,6 +66,9 @@ impl Knob {
             Knob::Resolution => "resolution",
             Knob::PixelError => "pixel error",
             Knob::SecondImages => "second images",
+            Knob::Rings => "rings",
+            Knob::Gas => "gas",
+            Knob::Streaks => "streaks",
             Knob::Stars => "stars",
             Knob::Outlines => "outlines",
             Knob::Bloom => "bloom",
@@ -56,6 +81,9 @@ impl Knob {
             Knob::Resolution => RESOLUTIONS.len() as u8,
             Knob::PixelError => PIXEL_ERRORS.len() as u8,
             Knob::SecondImages => LEAST_WIDTHS.len() as u8,
+            Knob::Rings => RING_ERRORS.len() as u8,
+            Knob::Gas => LOOKS.len() as u8,
+            Knob::Streaks => STREAKS.len() as u8,
             Knob::Stars => MAGNITUDES.len() as u8,
             Knob::Outlines | Knob::Bloom => 2,
         }
@@ -72,6 +100,9 @@ impl Knob {
             Knob::PixelError => format!("{} times the error", PIXEL_ERRORS[k]),
             Knob::SecondImages if LEAST_WIDTHS[k].is_finite() => format!("from {} px on", LEAST_WIDTHS[k]),
             Knob::SecondImages => "of the disk alone".into(),
+            Knob::Rings => format!("{} times the error", RING_ERRORS[k]),
+            Knob::Gas => format!("{} looks in a pixel", LOOKS[k]),
+            Knob::Streaks => format!("{} % of them", 100.0 * STREAKS[k]),
             Knob::Stars => format!("to magnitude {}", MAGNITUDES[k]),
             Knob::Outlines => "not smoothed".into(),
             Knob::Bloom => "none".into(),
@@ -80,7 +111,7 @@ impl Knob {
 
     /// Whether what it saves is done pixel by pixel.
     pub fn is_by_pixel(self) -> bool {
-        matches!(self, Knob::Outlines | Knob::Bloom)
+        matches!(self, Knob::Gas | Knob::Outlines | Knob::Bloom)
     }
 
     /// The share of the pixels that are drawn.
@@ -100,6 +131,9 @@ impl Knob {
             }
             Knob::PixelError => settings.pixel_error *= PIXEL_ERRORS[k],
             Knob::SecondImages => settings.least_width = settings.least_width.max(LEAST_WIDTHS[k]),
+            Knob::Rings => settings.ring_error *= RING_ERRORS[k],
+            Knob::Gas => settings.gas_looks = settings.gas_looks.min(LOOKS[k]),
+            Knob::Streaks => settings.streaks *= STREAKS[k],
             Knob::Stars => settings.faintest_star = settings.faintest_star.max(10f32.powf(-0.4 * MAGNITUDES[k])),
             Knob::Outlines => settings.smooth &= k == 0,
             Knob::Bloom if k > 0 => settings.bloom = 0.0,
@@ -138,7 +172,7 @@ mod tests {
     #[test]
     fn what_is_configured_coarser_stays_so() {
         let coarse = Settings { smooth: false, orders: 1, faintest_star: 1.0, ..Settings::finest() };
-        let turned = turned(&coarse, &[0, 0, 3, 3, 1, 1]);
+        let turned = turned(&coarse, &[0, 0, 3, 3, 3, 3, 3, 1, 1]);
         assert_eq!((turned.smooth, turned.orders, turned.faintest_star), (false, 1, 1.0));
     }
 }

@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use crate::render::Gpu;
-use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
+use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, new_texture, raster};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::types::{CellDraws, SKY_CORNER_BYTES};
 
@@ -38,16 +38,19 @@ impl Background {
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, milky_way: &Panorama) -> Self {
         let device = &gpu.device;
         let (width, height) = milky_way.first().map_or((1, 1), |level| (level.0, level.1));
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("milky way"),
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-            mip_level_count: milky_way.len().max(1) as u32,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::R8Unorm,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
+        let texture = new_texture(
+            device,
+            &wgpu::TextureDescriptor {
+                label: Some("milky way"),
+                size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+                mip_level_count: milky_way.len().max(1) as u32,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: wgpu::TextureFormat::R8Unorm,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+                view_formats: &[],
+            },
+        );
         for (mip, (width, height, pixels)) in milky_way.iter().enumerate() {
             // The square root, so that eight bits are enough for the faint parts.
             let roots: Vec<u8> = pixels.iter().map(|brightness| (255.0 * brightness.clamp(0.0, 1.0).sqrt()).round() as u8).collect();

@@ -4,18 +4,20 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 use lensrunner::lensing::Slice;
+use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
 use lensrunner::render::disk::circles::{AZIMUTHS, Look, SeenCircle, azimuth, pixel_angle, radii};
 use lensrunner::render::disk::view::DiskView;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::shaders::Pass;
+use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::PATTERN_HEIGHT;
 use lensrunner::spacetime::light::Order;
 
 use crate::render::disk::arcs::exact;
-use crate::render::support::{a_disk, camera, renderer, settings};
+use crate::render::support::{a_disk, camera, renderer, settings, total};
 use crate::support::shared_table;
 use crate::twin::run;
 
@@ -194,4 +196,38 @@ fn no_edge_is_seen_where_the_azimuth_changes_its_sign() {
     println!("steps are larger by {worst:.4} of the light than those beside them");
     // 0.006; 0.2 where each side has its own light up to the first of the azimuths at which it is told.
     assert!(worst < 0.02, "{worst}");
+}
+
+/// What the dial may leave out of the disk: wider rings are fewer, and neither they nor fewer looks along a pixel change its light.
+#[test]
+fn a_disk_with_less_in_it_is_as_bright() {
+    let size = [320, 180];
+    let mut renderer = renderer(size);
+    let disk = a_disk();
+    renderer.set_disk(Some(disk.clone()));
+    for (l, degrees) in [(22.0, 80.0), (6.5, 86.0)] {
+        let of = |ring_error, gas_looks| FrameInput {
+            camera: camera(l, degrees, 60f64.to_radians()),
+            time: 100.0,
+            placed: Vec::new(),
+            aurora: None,
+            settings: Settings { ring_error, gas_looks, ..settings() },
+        };
+        let rings = |input: &FrameInput| DiskView::new(&disk, input, &Slice::new(&shared_table(), l), size[0]).rings.len();
+        let finest = of(1.0, 16.0);
+        let light = |renderer: &mut Renderer, input: &FrameInput| total(&renderer.picture(input, false).unwrap());
+        let whole = light(&mut renderer, &finest);
+        for (ring_error, gas_looks) in [(8.0, 16.0), (1.0, 4.0), (1.0, 1.0), (8.0, 1.0)] {
+            let less = of(ring_error, gas_looks);
+            let change = light(&mut renderer, &less) / whole - 1.0;
+            println!(
+                "L = {l}, {ring_error} times the error, {gas_looks} looks: {} of {} rings, light {change:+.4}",
+                rings(&less),
+                rings(&finest)
+            );
+            assert_eq!(rings(&less) < rings(&finest), ring_error > 1.0);
+            // A mean over a frame of streaks and their chance.
+            assert!(change != 0.0 && change.abs() < 0.03, "{change}");
+        }
+    }
 }

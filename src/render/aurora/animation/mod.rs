@@ -258,7 +258,7 @@ impl AuroraAnimation {
             motion,
             row: self.rows.ago(0),
             both: self.both_poles(),
-            ration: self.ration.part(),
+            ration: self.ration.part() * f64::from(globe.view.settings.streaks),
             collisions: self.collisions(),
         };
         let segments = curtains.segments(globe);
