@@ -199,9 +199,6 @@ fn far_along(at: Streaks, taps: u32) -> Cooling {
 /// The same at two positions, which is best from far: four cost a sixth more of the disk's time and leave five sixths of the error.
 fn two_looks(at: Streaks) -> Cooling {
     let level = far_level(at);
-    if disk.light.z < 2.0 {
-        return Cooling(power_along(at, 0.0, level), unseen_of(at, unseen_variance(f32(level) - 1.0)));
-    }
     let a = power_along(at, -0.25, level);
     let b = power_along(at, 0.25, level);
     let unseen = unseen_of(at, unseen_variance(f32(level) - 1.0));

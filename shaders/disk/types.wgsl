@@ -24,7 +24,7 @@ struct DiskFrame {
     /// height over radius (bits of an f32); w: the end of the last list of triangles.
     room: vec4<u32>,
     /// x: the scene's unit of light over that of the table of black bodies; y: for a close camera, the light path in r_s beyond which arcs
-    /// of order 1 are drawn as from far; z: most positions along a pixel at which gas is looked up, from 1; w unused.
+    /// of order 1 are drawn as from far; z: most positions along a pixel at which a close camera looks gas up; w unused.
     light: vec4<f32>,
     /// x, y: position in the pattern of the first generation; z, w: step to the next.
     offset: vec4<f32>,

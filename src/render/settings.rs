@@ -33,7 +33,7 @@ pub struct Settings {
     pub least_width: f64,
     /// Factor on the errors that rings and arcs of the disk may have: greater ones make wider rings.
     pub ring_error: f32,
-    /// Most positions along a pixel at which the gas of the disk is looked up: 16 near, 2 far, or fewer.
+    /// Most positions along a pixel at which a camera close to the disk looks gas up, 1 to 16; from far they are two.
     pub gas_looks: f32,
     /// Share of the aurora's streaks that is drawn, wider in turn.
     pub streaks: f32,

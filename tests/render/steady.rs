@@ -3,7 +3,6 @@
 use lensrunner::render::Renderer;
 use lensrunner::render::gpu::layout::made;
 use lensrunner::render::gpu::targets::target;
-use lensrunner::render::quality::knobs::{Knob, turned};
 use lensrunner::render::shot::Moment;
 use lensrunner::render::stage::{Stage, settings};
 use lensrunner::scene::{GameConfig, load};
@@ -12,10 +11,10 @@ use crate::gpu::GPU;
 use crate::render::support::surroundings;
 
 const SIZE: [u32; 2] = [160, 90];
-/// Frames until all has been seen once, in both sizes.
+/// Frames until all has been seen once.
 const WARM: usize = 4;
 
-/// The frames of a scene, a hundredth of r_s/c apart and in turn at the finest and at half the width; what each makes.
+/// The frames of a scene, a hundredth of r_s/c apart; what each makes.
 fn makes(renderer: &mut Renderer, scene: &str) -> Vec<u64> {
     let config = GameConfig::default();
     let scene = load(scene).unwrap();
@@ -23,12 +22,9 @@ fn makes(renderer: &mut Renderer, scene: &str) -> Vec<u64> {
     let moment = Moment::new(&scene, &config, 2.0, 1);
     let (_, view) = target(&GPU.device, "steady", SIZE, wgpu::TextureFormat::Rgba8UnormSrgb);
     let finest = settings(&config);
-    let mut less = [0; Knob::ALL.len()];
-    less[0] = 4;
     let frame = |number: usize| {
-        let settings = if number % 2 == 0 { finest } else { turned(&finest, &less) };
         let time = moment.time() + 0.01 * number as f64;
-        let frame = stage.frame(stage.camera(time, &moment.ships()), SIZE, time, &moment.histories(), None, &settings);
+        let frame = stage.frame(stage.camera(time, &moment.ships()), SIZE, time, &moment.histories(), None, &finest);
         let before = made();
         renderer.prepare(&frame);
         let mut encoder = GPU.device.create_command_encoder(&Default::default());

@@ -13,7 +13,7 @@ pub enum Knob {
     SecondImages,
     /// Width of the rings of the disk, by their error.
     Rings,
-    /// Positions along a pixel at which the gas of the disk is looked up.
+    /// Positions along a pixel at which a camera close to the disk looks gas up.
     Gas,
     /// Streaks of the aurora.
     Streaks,

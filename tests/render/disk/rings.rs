@@ -226,8 +226,9 @@ fn a_disk_with_less_in_it_is_as_bright() {
                 rings(&finest)
             );
             assert_eq!(rings(&less) < rings(&finest), ring_error > 1.0);
-            // A mean over a frame of streaks and their chance.
-            assert!(change != 0.0 && change.abs() < 0.03, "{change}");
+            // From far there are two looks anyway. A mean over a frame of streaks and their chance.
+            let same = ring_error == 1.0 && l > 10.0;
+            assert!((change == 0.0) == same && change.abs() < 0.03, "{change}");
         }
     }
 }
