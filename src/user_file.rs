@@ -164,11 +164,19 @@ pub fn brief(message: &str) -> String {
     format!("{head}… ({} bytes) …{tail}", message.len())
 }
 
-/// A text as it is said in an error: its first characters if it is long.
+/// A text as it is said in an error: its first characters if it is long, in one line, with pictures (␊) for characters that control.
 pub fn short(text: &str) -> String {
-    match text.char_indices().nth(SAID) {
-        Some((end, _)) => format!("{}… ({} bytes)", &text[..end], text.len()),
-        None => text.to_owned(),
+    let said: String = text.chars().take(SAID).map(shown).collect();
+    if text.chars().nth(SAID).is_some() { format!("{said}… ({} bytes)", text.len()) } else { said }
+}
+
+/// A character that can be seen.
+fn shown(letter: char) -> char {
+    match u32::from(letter) {
+        code @ 0..0x20 => char::from_u32(0x2400 + code).unwrap_or(char::REPLACEMENT_CHARACTER),
+        0x7f => '␡',
+        0x80..0xa0 => char::REPLACEMENT_CHARACTER,
+        _ => letter,
     }
 }
 
@@ -221,6 +229,7 @@ mod tests {
     #[test]
     fn long_texts_are_cut() {
         assert_eq!(short("β"), "β");
+        assert_eq!(short("a\nb\t\u{7f}\u{9b}c"), "a␊b␉␡\u{fffd}c");
         assert_eq!(short(&"β".repeat(1000)), format!("{}… (2000 bytes)", "β".repeat(80)));
         let said = brief(&format!("k = {:?} is not known, allowed 1 to 3", "β".repeat(1_000_000)));
         assert!(said.starts_with("k = \"ββ") && said.ends_with("β\" is not known, allowed 1 to 3") && said.len() < 2000, "{said}");

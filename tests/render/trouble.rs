@@ -97,6 +97,20 @@ fn what_is_not_finite_is_counted_and_not_drawn() {
     assert!(matches!(bench.renderer.picture(&lost, false), Err(PictureError::Nothing)));
 }
 
+/// From within a closed body its inner side is seen, on every pixel and lit.
+#[test]
+fn from_within_a_body_its_inner_side_is_seen() {
+    let mut bench = bench();
+    let settings = Settings { orders: 1, ..quiet() };
+    for aside in [0.0, 0.3, 0.7] {
+        let placed = ball(&bench, camera().position + DVec3::new(aside, 0.1, 0.05), 1.0, &settings);
+        let picture = bench.renderer.picture(&frame(placed, settings), true).unwrap();
+        let covered = picture.layers.iter().filter(|texel| texel[0] == 1.0).count();
+        assert_eq!(covered, picture.layers.len(), "{aside} from the middle");
+        assert!(picture.linear.iter().all(|pixel| pixel[1] > 0.1), "dark, {aside} from the middle");
+    }
+}
+
 /// A full vertex buffer: patches are drawn coarsely, the counters say so, and the picture keeps its shape.
 #[test]
 fn a_full_vertex_buffer_is_said_and_nothing_vanishes() {

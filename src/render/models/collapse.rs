@@ -6,14 +6,13 @@ use std::collections::{BinaryHeap, HashMap, HashSet};
 
 use glam::{DVec3, Vec3};
 
-use crate::scene::{Material, Model, Vertex};
+use crate::render::models::patches::{contrast, sizes};
+use crate::scene::{Model, Vertex};
 
 /// The least cosine between the normals of a triangle before and after: more would fold the surface.
 const LEAST_TURN: f64 = 0.0;
 /// The least cosine between two normals at a vertex that are taken as one.
 const SAME_NORMAL: f32 = 0.8;
-/// How much more the place of an outline counts where a part shines: a nozzle stays until ten times its size may be lost.
-const SHINING: f64 = 10.0;
 /// Share of its length added to the price of an edge, so that of edges in one plane the shortest goes first.
 const SHORT_FIRST: f64 = 1e-6;
 
@@ -141,7 +140,7 @@ impl<'a> Collapse<'a> {
             patches: vec![Vec::new(); count],
             lost: 0.0,
         };
-        this.measure_patches();
+        this.patches = sizes(model, &this.points, this.with_materials().map(|((corners, _), &material)| (*corners, material)));
         this.weigh();
         (0..count as u32).for_each(|point| this.offer(point));
         this
@@ -152,57 +151,9 @@ impl<'a> Collapse<'a> {
         self.left
     }
 
-    /// Patches: triangles of one material that are connected by points. The size is half the diagonal of what holds it.
-    fn measure_patches(&mut self) {
-        let mut number_of: HashMap<(u32, u32), usize> = HashMap::new();
-        let mut boss: Vec<usize> = Vec::new();
-        fn chief(boss: &mut [usize], mut of: usize) -> usize {
-            while boss[of] != of {
-                boss[of] = boss[boss[of]];
-                of = boss[of];
-            }
-            of
-        }
-        for ((corners, _), &material) in self.with_materials() {
-            let numbers = corners.map(|point| {
-                *number_of.entry((point, material)).or_insert_with(|| {
-                    boss.push(boss.len());
-                    boss.len() - 1
-                })
-            });
-            let [a, b, c] = numbers.map(|number| chief(&mut boss, number));
-            (boss[b], boss[c]) = (a, a);
-        }
-        let mut boxes = vec![[DVec3::INFINITY, DVec3::NEG_INFINITY]; boss.len()];
-        for (&(point, _), &number) in &number_of {
-            let [low, high] = &mut boxes[chief(&mut boss, number)];
-            let place = self.points[point as usize];
-            (*low, *high) = (low.min(place), high.max(place));
-        }
-        for ((point, material), number) in number_of {
-            let [low, high] = boxes[chief(&mut boss, number)];
-            let others = 0..self.model.materials.len() as u32;
-            let contrast = others.map(|other| self.contrast([material, other])).fold(0.0, f64::max);
-            self.patches[point as usize].push((material, contrast * 0.5 * low.distance(high)));
-        }
-    }
-
+    /// The triangles that are left, with their materials.
     fn with_materials(&self) -> impl Iterator<Item = (&([u32; 3], [u32; 3]), &u32)> {
         self.triangles.iter().zip(&self.model.triangle_materials).filter_map(|(triangle, material)| Some((triangle.as_ref()?, material)))
-    }
-
-    /// How much two materials differ beside each other: 1 for black and white, more if one shines.
-    fn contrast(&self, materials: [u32; 2]) -> f64 {
-        let [Some(one), Some(other)] = materials.map(|number| self.model.materials.get(number as usize)) else { return 1.0 };
-        let shines = |material: &Material| material.emissive != [0.0; 3] || material.temperature > 0.0;
-        if shines(one) || shines(other) {
-            return SHINING;
-        }
-        if one.texture.is_some() || other.texture.is_some() {
-            return 1.0;
-        }
-        let differences = one.base_colour.iter().zip(other.base_colour).map(|(a, b)| f64::from((a - b).abs()));
-        differences.fold(f64::from((one.metallic - other.metallic).abs()), f64::max).min(1.0)
     }
 
     /// The greatest size of a patch that would have no triangle left at `to`.
@@ -258,8 +209,9 @@ impl<'a> Collapse<'a> {
         let &[(one, i), (other, j)] = triangles else { return Some(1.0) };
         let materials = [one, other].map(|triangle| self.model.triangle_materials[triangle as usize]);
         if materials[0] != materials[1] {
-            return Some(self.contrast(materials));
+            return Some(contrast(self.model, materials));
         }
+        self.model.materials.get(materials[0] as usize)?.texture.as_ref()?;
         let vertices = [one, other].map(|triangle| self.triangles[triangle as usize].map_or([0; 3], |(_, vertices)| vertices));
         let uv = |side: usize, corner: usize| self.model.vertices[vertices[side][corner % 3] as usize].uv;
         // The other triangle passes the edge the other way.
@@ -272,6 +224,7 @@ impl<'a> Collapse<'a> {
         Some((b - a).cross(c - a))
     }
 
+    /// The triangles at a point.
     fn at(&self, point: u32) -> impl Iterator<Item = ([u32; 3], [u32; 3])> {
         self.around[point as usize].iter().filter_map(|&triangle| self.triangles[triangle as usize])
     }

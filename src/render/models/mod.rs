@@ -4,6 +4,7 @@ pub mod coarse;
 pub mod collapse;
 pub mod hiding;
 pub mod outside;
+pub mod patches;
 
 use std::collections::HashMap;
 use std::sync::Arc;
