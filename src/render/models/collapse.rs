@@ -427,6 +427,7 @@ fn distance_to(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Material;
     use crate::scene::model::shapes;
 
     #[test]
