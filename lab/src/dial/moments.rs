@@ -141,7 +141,10 @@ impl Bench {
         let mut camera = stage.camera(moment.time(), &moment.ships());
         camera.attitude *= DQuat::from_rotation_y(case.turn[0]) * DQuat::from_rotation_x(case.turn[1]);
         debug_assert!(case.turn.iter().all(|turn| turn.abs() < PI));
-        Ok(Shown { stage, moment, camera, finest: settings(&self.config) })
+        // As the game draws it: the player's own ship is not metered.
+        let own_ship = scene.ships.iter().position(|ship| ship.player);
+        let engines = Some([self.config.ship.thrust, self.config.enemy.thrust]);
+        Ok(Shown { stage, moment, camera, finest: Settings { own_ship, engines, ..settings(&self.config) } })
     }
 
     /// Draws it with these settings, and takes the time.
