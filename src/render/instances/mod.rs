@@ -42,6 +42,11 @@ pub enum Motion<'a> {
     Flying(&'a History),
 }
 
+/// Allowed error, in pixels, up to which an image that bent light may draw out shows the full model.
+const DRAWN_OUT_ERROR: f32 = 1.0;
+/// On the camera's side of the hole and farther from it than this, in r_s, light comes almost straight: it bends by less than a radian.
+const NEAR_FROM: f64 = 3.0;
+
 /// A coarse model for small images.
 #[derive(Clone, Copy, Debug)]
 pub struct StandIn {
@@ -74,12 +79,16 @@ pub struct DrawnObject<'a> {
 
 impl DrawnObject<'_> {
     /// What is drawn of it in an image `width` pixels wide: the first that may stand for it in one so narrow, or itself.
-    fn model_for(&self, width: f64, settings: &Settings) -> ModelRange {
+    /// `is_near`: light comes from there almost straight.
+    fn model_for(&self, width: f64, is_near: bool, settings: &Settings) -> ModelRange {
         if width < settings.coarse_below {
             return self.coarse;
         }
         let allowed = f64::from(settings.pixel_error) / 0.5;
-        let fits = |stand_in: &&StandIn| width < allowed * stand_in.below;
+        // The light of a thin image is summed triangle by triangle, with what each hides of the others: the judge sees another model. So it
+        // does where bent light draws an image out: there a model stands in only where more than this is allowed.
+        let may_differ = width >= settings.thin_below && (is_near || settings.pixel_error > DRAWN_OUT_ERROR);
+        let fits = |stand_in: &&StandIn| may_differ && width < allowed * stand_in.below;
         self.stand_ins.iter().find(fits).map_or(self.model, |stand_in| stand_in.model)
     }
 }
@@ -133,7 +142,8 @@ pub fn instances_of(view: &View, time: f64, object: &DrawnObject, orders: u32) -
             return None;
         }
         // Near the hole, relative to the object's size, an image is stretched round the ring and shows more detail than its width tells.
-        let model = if object.reach < 0.1 * position.length() { object.model_for(width, settings) } else { object.model };
+        let is_near = order.number() == 1 && position.length() > NEAR_FROM && position.dot(camera.position) > 0.0;
+        let model = if object.reach < 0.1 * position.length() { object.model_for(width, is_near, settings) } else { object.model };
         set_strictness(&mut instance, view, width, order);
         let longer = drawn_out(camera, &instance, position, order, age);
         instance.bounds = view.bounds(&extent, position, object.reach, longer, order, age);

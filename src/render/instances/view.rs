@@ -84,7 +84,10 @@ impl View<'_> {
         let phi = position.dot(n).clamp(-r, r) / r;
         let phi = phi.acos();
         let anywhere = Extent { look: n, radius: std::f64::consts::PI, width: std::f64::consts::PI / self.pixel };
-        let half = if reach < r { (reach / r).asin() } else { return anywhere };
+        if reach >= r || position.distance(self.camera.position) <= reach {
+            return anywhere;
+        }
+        let half = (reach / r).asin();
         let seen = |r: f64, phi: f64| {
             let (sine, cosine) = phi.clamp(0.0, std::f64::consts::PI).sin_cos();
             self.angle([r * cosine - l, r * sine, r * cosine], order, age)
