@@ -97,7 +97,7 @@ fn what_is_not_finite_is_counted_and_not_drawn() {
     assert!(matches!(bench.renderer.picture(&lost, false), Err(PictureError::Nothing)));
 }
 
-/// From near the middle of a closed body its inner side is seen, on every pixel and lit.
+/// From within a closed body (a ball of radius 0.5) its inner side is seen, on every pixel and lit.
 #[test]
 fn from_within_a_body_its_inner_side_is_seen() {
     let mut bench = bench();

@@ -70,7 +70,7 @@ pub const HELD: [Held; 14] = [
     },
     Held {
         part: "drawing",
-        place: "camera near the middle of a closed body",
+        place: "camera within a closed body",
         must: "its inner side is seen on every pixel",
         test: ["tests/render/trouble.rs", "from_within_a_body_its_inner_side_is_seen"],
         fault: fault("src/render/instances/mod.rs", "if within || !settings.method.bends() {", "if !settings.method.bends() {"),
