@@ -81,9 +81,9 @@ mod tests {
             .to_vec();
         let found = sizes(&model, &points, [([0, 1, 2], 0), ([0, 3, 4], 0), ([5, 6, 7], 1)].into_iter());
         let diagonal = 4f64.hypot(5.0);
-        for point in 0..5 {
-            assert_eq!(found[point].len(), 1);
-            assert!((found[point][0].1 - 0.5 * diagonal).abs() < 1e-12, "{:?}", found[point]);
+        for at_point in &found[..5] {
+            assert_eq!(at_point.len(), 1);
+            assert!((at_point[0].1 - 0.5 * diagonal).abs() < 1e-12, "{at_point:?}");
         }
         assert_eq!(found[6], [(1, 1.0)]);
     }
