@@ -181,15 +181,10 @@ fn texture(device: &wgpu::Device, size: [u32; 2]) -> wgpu::Texture {
     let [width, height] = size.map(|side| side.next_multiple_of(LEAST_DEPTH_TILE << (DEPTH_TILES - 1)) / LEAST_DEPTH_TILE);
     new_texture(
         device,
-        &wgpu::TextureDescriptor {
-            label: Some("aurora ranges"),
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-            mip_level_count: DEPTH_TILES,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        },
+        "aurora ranges",
+        [width, height],
+        [1, DEPTH_TILES],
+        FORMAT,
+        wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
     )
 }

@@ -124,16 +124,11 @@ fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, [width, height]:
     let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
     let texture = new_texture(
         &gpu.device,
-        &wgpu::TextureDescriptor {
-            label: Some(label),
-            size,
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        },
+        label,
+        [width, height],
+        [1, 1],
+        format,
+        wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
     );
     let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(bytes.len() as u32 / height), rows_per_image: None };
     gpu.queue.write_texture(texture.as_image_copy(), bytes, layout, size);

@@ -59,16 +59,11 @@ impl GroundBuffers {
 fn map(device: &wgpu::Device, size: u32) -> (wgpu::Texture, wgpu::TextureView) {
     let texture = new_texture(
         device,
-        &wgpu::TextureDescriptor {
-            label: Some("ground light"),
-            size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rg16Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        },
+        "ground light",
+        [size, size],
+        [1, 1],
+        wgpu::TextureFormat::Rg16Float,
+        wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
     );
     let view = texture.create_view(&Default::default());
     (texture, view)

@@ -24,9 +24,25 @@ fn counted<T>(thing: T) -> T {
     thing
 }
 
-/// A texture.
-pub fn new_texture(device: &wgpu::Device, descriptor: &wgpu::TextureDescriptor) -> wgpu::Texture {
-    counted(device.create_texture(descriptor))
+/// A 2-D texture of this width and height in pixels, of so many layers and levels of mip.
+pub fn new_texture(
+    device: &wgpu::Device,
+    label: &str,
+    [width, height]: [u32; 2],
+    [layers, levels]: [u32; 2],
+    format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    counted(device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: layers },
+        mip_level_count: levels,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    }))
 }
 
 /// One entry of a layout: its kind, and who sees it.
@@ -230,21 +246,8 @@ const TEXEL: usize = 16;
 
 /// A texture for a table of `count` texels: as wide as they are, or of so many rows.
 fn table_texture(device: &wgpu::Device, label: &str, format: wgpu::TextureFormat, count: usize) -> (wgpu::Texture, wgpu::TextureView) {
-    let descriptor = wgpu::TextureDescriptor {
-        label: Some(label),
-        size: wgpu::Extent3d {
-            width: count.clamp(1, TABLE_ROW) as u32,
-            height: count.div_ceil(TABLE_ROW).max(1) as u32,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    };
-    let texture = new_texture(device, &descriptor);
+    let size = [count.clamp(1, TABLE_ROW) as u32, count.div_ceil(TABLE_ROW).max(1) as u32];
+    let texture = new_texture(device, label, size, [1, 1], format, wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST);
     let view = texture.create_view(&Default::default());
     (texture, view)
 }

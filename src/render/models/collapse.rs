@@ -229,8 +229,12 @@ impl<'a> Collapse<'a> {
         self.around[point as usize].iter().filter_map(|&triangle| self.triangles[triangle as usize])
     }
 
-    fn neighbours(&self, point: u32) -> HashSet<u32> {
-        self.at(point).flat_map(|(corners, _)| corners).filter(|&other| other != point).collect()
+    /// The points that share a triangle with one, each once.
+    fn neighbours(&self, point: u32) -> Vec<u32> {
+        let mut found: Vec<u32> = self.at(point).flat_map(|(corners, _)| corners).filter(|&other| other != point).collect();
+        found.sort_unstable();
+        found.dedup();
+        found
     }
 
     /// Queues what a point can do with its neighbours, and they with it.
@@ -283,7 +287,7 @@ impl<'a> Collapse<'a> {
         let has = |point: u32| move |corners: &[u32; 3]| corners.contains(&point);
         let shared = self.at(from).filter(|(corners, _)| has(to)(corners)).count();
         let (mine, theirs) = (self.neighbours(from), self.neighbours(to));
-        if shared == 0 || mine.intersection(&theirs).count() != shared {
+        if shared == 0 || mine.iter().filter(|point| theirs.contains(point)).count() != shared {
             return false;
         }
         self.at(from).filter(|(corners, _)| !has(to)(corners)).all(|(corners, _)| {

@@ -230,16 +230,11 @@ impl Models {
         let storage = wgpu::BufferUsages::STORAGE;
         let texture = new_texture(
             device,
-            &wgpu::TextureDescriptor {
-                label: Some("surface textures"),
-                size: wgpu::Extent3d { width: TEXTURE_SIZE, height: TEXTURE_SIZE, depth_or_array_layers: TEXTURE_LAYERS },
-                mip_level_count: TEXTURE_SIZE.ilog2() + 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: wgpu::TextureFormat::Rgba8UnormSrgb,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-                view_formats: &[],
-            },
+            "surface textures",
+            [TEXTURE_SIZE, TEXTURE_SIZE],
+            [TEXTURE_LAYERS, TEXTURE_SIZE.ilog2() + 1],
+            wgpu::TextureFormat::Rgba8UnormSrgb,
+            wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         );
         Models {
             set: ModelSet::default(),

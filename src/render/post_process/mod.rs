@@ -261,19 +261,7 @@ fn outlines(gpu: &Gpu, size: [u32; 2]) -> wgpu::Buffer {
 
 /// A texture that the finished picture is copied into.
 fn display(device: &wgpu::Device, size: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
-    new_texture(
-        device,
-        &wgpu::TextureDescriptor {
-            label: Some("display"),
-            size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        },
-    )
+    new_texture(device, "display", size, [1, 1], format, wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST)
 }
 
 /// Begins a pass that draws to `targets`, with everything set but its triangles: most passes have one, over the whole picture. It is timed

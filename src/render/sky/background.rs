@@ -40,16 +40,11 @@ impl Background {
         let (width, height) = milky_way.first().map_or((1, 1), |level| (level.0, level.1));
         let texture = new_texture(
             device,
-            &wgpu::TextureDescriptor {
-                label: Some("milky way"),
-                size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-                mip_level_count: milky_way.len().max(1) as u32,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: wgpu::TextureFormat::R8Unorm,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-                view_formats: &[],
-            },
+            "milky way",
+            [width, height],
+            [1, milky_way.len().max(1) as u32],
+            wgpu::TextureFormat::R8Unorm,
+            wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         );
         for (mip, (width, height, pixels)) in milky_way.iter().enumerate() {
             // The square root, so that eight bits are enough for the faint parts.
