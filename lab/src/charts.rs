@@ -128,8 +128,9 @@ pub struct ChartDialArgs {
 /// The same scenes by two Vulkan drivers: how many pixels differ, and a picture of those that differ most.
 #[derive(Args)]
 pub struct ChartDriversArgs {
-    /// The manifest of the second driver.
-    #[arg(long, value_name = "FILE.json")]
+    /// The manifest of the second driver, or a folder with its pictures of the scenes, NAME.png, drawn by `lensrunner shot` on another
+    /// machine; the table is then named after the folder.
+    #[arg(long, value_name = "FILE.json|DIR")]
     driver: PathBuf,
     /// Scenes: TOML files, or names in assets/scenes.
     #[arg(

@@ -35,9 +35,20 @@ fn leaves_cap(cap: vec4<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool 
     }
     let corners = min(chords.x, min(chords.y, chords.z));
     let sides = min(nearest_on_side(middle, a, b), min(nearest_on_side(middle, b, c), nearest_on_side(middle, c, a)));
-    let turns = vec3<f32>(dot(cross(a, b), middle), dot(cross(b, c), middle), dot(cross(c, a), middle));
-    let round = (all(turns > vec3<f32>(0.0)) || all(turns < vec3<f32>(0.0))) && dot(a + b + c, middle) > 0.0;
+    let normals = mat3x3<f32>(side_normal(a, b), side_normal(b, c), side_normal(c, a));
+    let turns = middle * normals;
+    let least = UNSURE * vec3<f32>(length(normals[0]), length(normals[1]), length(normals[2]));
+    let round = (all(turns > least) || all(turns < -least)) && dot(a + b + c, middle) > 0.0;
     return round || min(corners, sides) < -cap.w;
+}
+
+/// A direction nearer to a great circle than this, in radians, may by rounding be on either side: f32 has 1e-7, and no cap is that small.
+const UNSURE: f32 = 1e-5;
+
+/// The normal of the great circle from a to b, as long as the sine between them. By the difference, which is exact for near directions: a
+/// driver that fuses products gives cross(a, a) the direction of its rounding.
+fn side_normal(a: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
+    return cross(a, b - a);
 }
 
 fn square(v: vec3<f32>) -> f32 {
@@ -47,7 +58,7 @@ fn square(v: vec3<f32>) -> f32 {
 /// The square of the chord from a direction to the nearest inner point of the great circle's arc from a to b; 4, the largest value, if an
 /// end is nearer.
 fn nearest_on_side(middle: vec3<f32>, a: vec3<f32>, b: vec3<f32>) -> f32 {
-    let normal = cross(a, b);
+    let normal = side_normal(a, b);
     let foot = middle - normal * (dot(normal, middle) / max(dot(normal, normal), 1e-30));
     let between = dot(cross(a, foot), normal) > 0.0 && dot(cross(foot, b), normal) > 0.0;
     return select(4.0, square(foot / max(length(foot), 1e-20) - middle), between);

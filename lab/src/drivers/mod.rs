@@ -1,5 +1,5 @@
 //! The same pictures by two drivers: `lensrunner-lab chart drivers`. Which driver draws is told to Vulkan's loader by `VK_DRIVER_FILES`, so
-//! each picture is made by the game in a process of its own.
+//! each picture is made by the game in a process of its own. Pictures of a driver of another machine are read from a folder.
 //!
 //! - [`differ`]: how two pictures differ.
 
@@ -20,7 +20,8 @@ use differ::{Difference, difference};
 pub struct DriversRequest {
     /// Where sheet and picture go.
     pub output: Output,
-    /// The second driver: its manifest, a `.json` file.
+    /// The second driver: its manifest, a `.json` file; or a folder with its pictures, NAME.png for each scene. Sheet and picture are then
+    /// named after the folder.
     pub driver: PathBuf,
     /// Names or files of scenes.
     pub scenes: Vec<String>,
@@ -42,8 +43,14 @@ pub enum DriversError {
         reason: String,
     },
     /// There is no such driver.
-    #[error("{0}: no such file; it is to be the manifest of a Vulkan driver, for instance vk_swiftshader_icd.json of Chromium")]
+    #[error(
+        "{0}: no such file or folder; it is to be the manifest of a Vulkan driver, for instance vk_swiftshader_icd.json of Chromium, or a \
+         folder with pictures"
+    )]
     NoDriver(PathBuf),
+    /// A picture is of another size than was asked for.
+    #[error("{0} is {1} × {2} pixels, but {3} × {4} are compared: draw it with `lensrunner shot --size {3}x{4}`")]
+    Size(PathBuf, u32, u32, u32, u32),
     /// There is nothing to draw with.
     #[error(transparent)]
     Device(#[from] DeviceError),
@@ -65,6 +72,8 @@ const SHOWN: usize = 3;
 pub fn run(request: &DriversRequest) -> Result<Vec<PathBuf>, DriversError> {
     let manifest = request.driver.canonicalize().map_err(|_| DriversError::NoDriver(request.driver.clone()))?;
     let other = manifest.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let pictures = manifest.is_dir();
+    let stem = if pictures { format!("drivers-{other}") } else { "drivers".to_owned() };
     let gpu = Gpu::headless()?;
     let mut sheet = Sheet::new(&COLUMNS);
     sheet.notes = Provenance::now(&gpu.adapter_name()).notes();
@@ -73,7 +82,8 @@ pub fn run(request: &DriversRequest) -> Result<Vec<PathBuf>, DriversError> {
     let mut all: Vec<(Difference, [RgbImage; 2])> = Vec::new();
     for scene in &request.scenes {
         eprintln!("{scene}");
-        let pair = [shot(scene, request, None, "the first driver")?, shot(scene, request, Some(&manifest), &other)?];
+        let second = if pictures { drawn(&manifest, scene, request.size)? } else { shot(scene, request, Some(&manifest), &other)? };
+        let pair = [shot(scene, request, None, "the first driver")?, second];
         let found = difference(&pair[0], &pair[1]);
         sheet.push([
             scene.clone(),
@@ -85,13 +95,29 @@ pub fn run(request: &DriversRequest) -> Result<Vec<PathBuf>, DriversError> {
         ]);
         all.push((found, pair));
     }
-    let csv = request.output.csv("drivers");
+    let csv = request.output.csv(&stem);
     sheet.save(&csv)?;
     all.sort_by_key(|(found, _)| std::cmp::Reverse((found.elsewhere, found.differ)));
     all.truncate(SHOWN);
-    let path = request.output.folder.join("drivers.png");
+    let path = request.output.folder.join(format!("{stem}.png"));
     side_by_side(&all, request.size).save(&path).map_err(|error| DriversError::Write(path.clone(), error))?;
     Ok(vec![csv, path])
+}
+
+/// A picture of the scene in a folder.
+fn drawn(folder: &Path, scene: &str, [width, height]: [u32; 2]) -> Result<RgbImage, DriversError> {
+    let name = Path::new(scene).file_stem().unwrap_or_default();
+    let path = folder.join(name).with_extension("png");
+    let failed = |error: image::ImageError| DriversError::Shot {
+        scene: scene.into(),
+        driver: path.display().to_string(),
+        reason: error.to_string(),
+    };
+    let picture = image::open(&path).map_err(failed)?.into_rgb8();
+    if picture.dimensions() != (width, height) {
+        return Err(DriversError::Size(path, picture.width(), picture.height(), width, height));
+    }
+    Ok(picture)
 }
 
 /// A picture by the game, in a process of its own.

@@ -31,7 +31,7 @@ const fn fault(file: &'static str, right: &'static str, wrong: &'static str) -> 
 }
 
 /// All of them.
-pub const HELD: [Held; 14] = [
+pub const HELD: [Held; 15] = [
     Held {
         part: "light",
         place: "NaN, infinities, denormals and zeros in every argument",
@@ -67,6 +67,13 @@ pub const HELD: [Held; 14] = [
             "if coarse {\n                atomicAdd(&counters.coarse, 1u);",
             "if coarse {\n                atomicAdd(&counters.coarse, 0u);",
         ),
+    },
+    Held {
+        part: "drawing",
+        place: "triangles without area at the rim of an image, products fused by the driver",
+        must: "the guard of bounds leaves none out that does not leave them",
+        test: ["tests/render/instances/bounds.rs", "triangles_without_area_are_told_from_those_that_enter_a_cap"],
+        fault: fault("shaders/instances/bounds.wgsl", "    return cross(a, b - a);", "    return cross(a, b);"),
     },
     Held {
         part: "drawing",

@@ -1,16 +1,20 @@
 //! The guard: what lies outside of where an object's image can be is not drawn, and counted. That nothing does in scenes is told by every
 //! test that compares them.
 
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3, Vec3};
 use lensrunner::lensing::Slice;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::Picture;
+use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::instances::{Motion, Placed, View, instances_of};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::spacetime::Observer;
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
 
 use crate::render::lookup::{Bench, bench};
+use crate::twin::run;
 
 fn camera() -> Observer {
     static_camera(DVec3::new(0.0, 0.0, 15.0), DVec3::NEG_Z, DVec3::Y, 60f64.to_radians())
@@ -64,4 +68,61 @@ fn what_is_out_of_bounds_is_left_out_and_counted() {
         placed.instance.bounds = [[high[0], high[1], high[2], high[3] * 1.5], low, [0.0; 4]];
     }
     assert!(drawn(&mut bench, placed, settings).1 > 0);
+}
+
+/// The angle from a direction to the nearest point of a triangle of directions, by many points of its sides, in f64.
+fn nearest(middle: DVec3, corners: [DVec3; 3]) -> f64 {
+    let weights = DMat3::from_cols_array_2d(&corners.map(DVec3::into)).inverse() * middle;
+    if weights.is_finite() && weights.min_element() >= 0.0 {
+        return 0.0;
+    }
+    let sides = [0, 1, 2].map(|k| [corners[k], corners[(k + 1) % 3]]);
+    let points = sides.into_iter().flat_map(|[a, b]| (0..=200).map(move |k| a.lerp(b, f64::from(k) / 200.0)));
+    points.map(|point| point.angle_between(middle)).fold(f64::INFINITY, f64::min)
+}
+
+/// A cap that triangles must keep out of, against f64: wide triangles, slivers that point to the middle, and triangles that are a point or
+/// a line but for rounding, of which a driver that fuses products makes what it likes.
+#[test]
+fn triangles_without_area_are_told_from_those_that_enter_a_cap() {
+    let mut rng = StdRng::seed_from_u64(5);
+    let mut direction = |about: DVec3, most: f64| {
+        let aside = DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)));
+        (about + aside * most).normalize().as_vec3().as_dvec3()
+    };
+    let (mut rows, mut truths) = (Vec::new(), Vec::new());
+    for number in 0..5000 {
+        let middle = direction(DVec3::ZERO, 1.0);
+        let a = direction(middle, 0.6);
+        let [b, c] = match number % 5 {
+            0 => [0.5; 2].map(|wide| direction(middle, wide)),
+            // Points, and lines towards the middle, but for rounding.
+            1 => [1e-7; 2].map(|near| direction(a, near)),
+            2 => [a, a],
+            3 => [0.3, 0.7].map(|part| direction(a.lerp(middle, part), 1e-7)),
+            _ => [direction(a, 0.2), a],
+        };
+        let radius = 0.01 + 0.3 * f64::from(number % 7) / 7.0;
+        let distance = nearest(middle, [a, b, c]);
+        if (distance - radius).abs() < 2e-3 {
+            continue;
+        }
+        let chord = 4.0 * (0.5 * radius).sin().powi(2);
+        rows.extend([a, b, c].map(|corner| corner.as_vec3().extend(0.0).to_array()));
+        rows.push(middle.as_vec3().extend(-chord as f32).to_array());
+        truths.push(distance < radius);
+    }
+    let body = "
+#import lensrunner::instances::bounds::leaves_cap
+if id.x % 4u != 0u { return; }
+let k = id.x;
+let leaves = leaves_cap(twin_rows[k + 3u], row.xyz, twin_rows[k + 1u].xyz, twin_rows[k + 2u].xyz);
+twin_out[k] = vec4<f32>(select(0.0, 1.0, leaves), 0.0, 0.0, 0.0);";
+    let found = run(Pass::Mesh, body, [&[], &[]], &rows, 1);
+    let wrong: Vec<[Vec3; 4]> = (0..truths.len())
+        .filter(|&k| (found[4 * k][0] == 1.0) != truths[k])
+        .map(|k| std::array::from_fn(|j| Vec3::from_slice(&rows[4 * k + j])))
+        .collect();
+    assert!(truths.iter().filter(|&&enters| enters).count() > 1000);
+    assert!(wrong.is_empty(), "{} of {} wrong: {:?}", wrong.len(), truths.len(), &wrong[..wrong.len().min(3)]);
 }
