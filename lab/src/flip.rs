@@ -51,7 +51,8 @@ impl Seen {
         // Contrast sensitivity: sums of Gaussians for the three opponent channels (section 4.1.1, table 1).
         let sensitivity: [&[(f64, f64)]; 3] = [&[(1.0, 0.0047)], &[(1.0, 0.0053)], &[(34.1, 0.04), (13.5, 0.025)]];
         let blurred: Vec<Plane> = planes.iter().zip(sensitivity).map(|(plane, terms)| blur(plane, terms)).collect();
-        let lab = (0..opponent.len()).into_par_iter().map(|i| hunt(to_rgb(from_opponent([0, 1, 2].map(|k| blurred[k].values[i]))))).collect();
+        let lab =
+            (0..opponent.len()).into_par_iter().map(|i| hunt(to_rgb(from_opponent([0, 1, 2].map(|k| blurred[k].values[i]))))).collect();
         let grey = Plane { values: planes[0].values.iter().map(|y| (y + 16.0) / 116.0).collect(), ..planes[0].clone() };
         let [edges, points] = features(&grey);
         Seen { lab, edges, points }

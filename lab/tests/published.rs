@@ -4,16 +4,16 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use lensrunner_lab::chart::Sheet;
+
 fn read(path: &str) -> String {
     std::fs::read_to_string(crate::support::root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
 /// The rows of a CSV, each by the names of its columns.
 fn rows(path: &str) -> Vec<BTreeMap<String, String>> {
-    let text = read(path);
-    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
-    let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
-    lines.map(|line| header.iter().map(|name| (*name).to_owned()).zip(line.split(',').map(str::to_owned)).collect()).collect()
+    let sheet = Sheet::from_csv(path.as_ref(), &read(path)).unwrap();
+    sheet.rows.into_iter().map(|row| sheet.columns.iter().cloned().zip(row).collect()).collect()
 }
 
 fn number(row: &BTreeMap<String, String>, name: &str) -> f64 {

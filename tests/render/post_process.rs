@@ -127,8 +127,10 @@ fn the_own_ship_is_lit_for_the_exposure() {
     };
     let (plain, none) = draw(None, 1.0);
     assert_eq!(none, [0.0; 3]);
-    // The hunter is the first object; the disk has no layers, and lies over none of the ship here.
-    let ship: Vec<usize> = (0..plain.layers.len()).filter(|&k| plain.layers[k][0] == 1.0 && plain.surface[k][2] == 1.0).collect();
+    // The hunter is the first object; the disk has no layers, and lies over none of the ship here. Full coverage comes interpolated, so off
+    // by a rounding on some drivers.
+    let covered = |k: usize| (plain.surface[k][2] - 1.0).abs() < 1e-5;
+    let ship: Vec<usize> = (0..plain.layers.len()).filter(|&k| plain.layers[k][0] == 1.0 && covered(k)).collect();
     assert!(ship.len() > 50, "{} pixels", ship.len());
     // The median pixel is hull, not engine.
     let hull = |picture: &Picture| {

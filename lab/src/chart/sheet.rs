@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-/// Rows of text under named columns. Cells hold neither commas nor line breaks: they are replaced when written.
+/// Rows of text under named columns. A cell with a comma or a quotation mark is written in quotation marks (RFC 4180); line breaks become
+/// blanks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sheet {
     /// What the numbers were measured on: name and text, written as `# name: text`.
@@ -28,6 +29,21 @@ pub enum SheetError {
     /// The chart needs a column that is missing.
     #[error("{}: there is no column {:?}", .0, .1)]
     Column(String, String),
+}
+
+/// The cells of a line of CSV.
+fn cells_of(line: &str) -> Vec<String> {
+    let (mut cells, mut quoted) = (vec![String::new()], false);
+    let mut characters = line.chars().peekable();
+    while let Some(character) = characters.next() {
+        match character {
+            '"' if quoted && characters.next_if_eq(&'"').is_some() => cells.last_mut().into_iter().for_each(|cell| cell.push('"')),
+            '"' => quoted = !quoted,
+            ',' if !quoted => cells.push(String::new()),
+            other => cells.last_mut().into_iter().for_each(|cell| cell.push(other)),
+        }
+    }
+    cells
 }
 
 impl Sheet {
@@ -63,7 +79,10 @@ impl Sheet {
 
     /// The sheet as CSV.
     pub fn to_csv(&self) -> String {
-        let clean = |cell: &String| cell.replace([',', '\n', '\r'], ";");
+        let clean = |cell: &String| {
+            let cell = cell.replace(['\n', '\r'], " ");
+            if cell.contains([',', '"']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell }
+        };
         let mut out = String::new();
         for (name, text) in &self.notes {
             out.push_str(&format!("# {name}: {}\n", text.replace(['\n', '\r'], " ")));
@@ -83,7 +102,7 @@ impl Sheet {
                 sheet.notes.push((name.to_owned(), note.to_owned()));
                 continue;
             }
-            let cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            let cells = cells_of(line);
             if sheet.columns.is_empty() {
                 sheet.columns = cells;
             } else if cells.len() == sheet.columns.len() {
@@ -108,5 +127,20 @@ impl Sheet {
     pub fn load(path: &Path) -> Result<Sheet, SheetError> {
         let text = std::fs::read_to_string(path).map_err(|error| SheetError::Io(path.to_path_buf(), error))?;
         Sheet::from_csv(path, &text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_come_back_as_they_were() {
+        let mut sheet = Sheet::new(&["place, r", "value"]);
+        sheet.push(["2,744 balls", "say \"no\""]);
+        sheet.push(["", "1;2"]);
+        let text = sheet.to_csv();
+        assert!(text.contains("\"2,744 balls\",\"say \"\"no\"\"\""), "{text}");
+        assert_eq!(Sheet::from_csv(Path::new("sheet.csv"), &text).unwrap(), sheet);
     }
 }

@@ -46,7 +46,7 @@ pub fn draw(sheet: &Sheet) -> Figure {
 
 fn panel(sheet: &Sheet, flight: &str, title: &str, cost: &str, error: &str) -> Panel {
     let line = |method: Method| {
-        let name = method.name().replace(',', ";");
+        let name = method.name();
         let of_it = |failed: &str| {
             let rows = sheet.rows.iter().filter(|row| sheet.text(row, "flight") == flight && sheet.text(row, "method") == name);
             let rows = rows.filter(|row| sheet.text(row, "failed") == failed);
@@ -86,7 +86,7 @@ const WORST: f64 = 10.0;
 /// What each needs for a good phase beside DOP853 with error control, and how far the game is off.
 fn verdict(sheet: &Sheet) -> String {
     let cost = |flight: &str, method: Method| {
-        let name = method.name().replace(',', ";");
+        let name = method.name();
         let rows = sheet.rows.iter().filter(|row| sheet.text(row, "flight") == flight && sheet.text(row, "method") == name);
         let good = rows.filter(|row| sheet.number(row, "phase") <= GOOD && sheet.text(row, "failed") == "0");
         good.map(|row| sheet.number(row, "evaluations")).fold(f64::NAN, f64::min)

@@ -116,7 +116,7 @@ pub fn measure(request: &FlightRequest) -> Result<Sheet, FlightError> {
             };
             sheet.push([
                 case.name.to_owned(),
-                method.name().replace(',', ";"),
+                method.name().to_owned(),
                 told,
                 u8::from(*method == Method::Game && *effort == own(&case)).to_string(),
                 format!("{:.6}", case.span / flight.steps.max(1) as f64),

@@ -38,7 +38,7 @@ pub struct Parts {
 pub struct Spread {
     /// The mean.
     pub mean: f64,
-    /// The middle one.
+    /// The middle one, of an even number the mean of both.
     pub median: f64,
     /// The longest.
     pub worst: f64,
@@ -52,7 +52,7 @@ impl Spread {
         let count = sorted.len();
         Spread {
             mean: sorted.iter().sum::<f64>() / count.max(1) as f64,
-            median: sorted.get(count / 2).copied().unwrap_or(0.0),
+            median: if count == 0 { 0.0 } else { 0.5 * (sorted[count / 2] + sorted[(count - 1) / 2]) },
             worst: sorted.last().copied().unwrap_or(0.0),
         }
     }

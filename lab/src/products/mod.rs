@@ -53,7 +53,7 @@ pub struct Run {
 pub struct Product {
     /// What it is called.
     pub name: &'static str,
-    /// How it is made.
+    /// How it is made; nothing if only some machines can.
     pub runs: &'static [Run],
     /// The same in small, for `--quick`; nothing if it is left out there.
     pub quick: &'static [Run],

@@ -254,7 +254,7 @@ pub const PRODUCTS: &[Product] = &[
     },
     Product {
         name: "dial-moving",
-        runs: &[lab("chart dial --moving --moments 300 --size 640x360 -o {}")],
+        runs: &[lab("chart dial --moving --moments 240 --size 640x360 -o {}")],
         quick: &[lab("chart dial --moving --moments 12 --size 160x90 -o {}")],
         folder: "lab",
         files: &["dial-moving.csv"],
@@ -292,6 +292,17 @@ pub const PRODUCTS: &[Product] = &[
         grows: false,
         sources: &[DRAWN, &["lab/src/drivers"]],
         seconds: [120.0, 0.0],
+    },
+    Product {
+        name: "card",
+        // Measured on a graphics card, by the commands of docs/lab/card.md: another machine would put other figures there.
+        runs: &[],
+        quick: &[],
+        folder: "lab/card",
+        files: &["dial-check.csv", "drivers-nvidia-h100.csv", "drivers-nvidia-h100.png", "frame-flight.csv", "frame.csv"],
+        grows: false,
+        sources: &[DRAWN, &["lab/src/drivers", "lab/src/frame_times", "lab/src/dial", "tables/quality.csv"]],
+        seconds: [0.0, 0.0],
     },
     Product {
         name: "window",

@@ -7,8 +7,8 @@ use crate::chart::{Provenance, Sheet};
 const HEAD: &str = "# Where methods fail
 
 A row is a place, a column a method. Green: the greatest error there is within the limit. Red: it is not. A dash: the method gives no answer
-where there is one. The game's own methods stand first and must be green everywhere; a test of the laboratory holds them so
-(`stability::ours_hold_everywhere`).
+where there is one. What the game draws and flies with stands first and must be green everywhere; a test of the laboratory holds them so
+(`ours_hold_everywhere`).
 
     lab/run stability -o docs/lab           # this page and its numbers
     lab/run stability --faults              # puts each fault of the last table into a copy of the sources: every test there must fail
@@ -16,13 +16,13 @@ where there is one. The game's own methods stand first and must be green everywh
 
 /// What stands over a part's table.
 const ABOUT: [&str; 4] = [
-    "Greatest error of the direction in degrees, of a delay in what is allowed (0.002 r_s/c + 3·10⁻⁷ of it; 0.02 r_s/c below 1.05 r_s).
-Limit: 0.008°, half a pixel at 3840 pixels over 60°, and 1. Truth: the judge's integration. `table` is what the game draws with, `exact` the
+    "Directions: greatest error in degrees; limit 0.008°, half a pixel at 3840 pixels over 60°. Delays: greatest error as a multiple of what is
+allowed, 0.002 r_s/c + 3·10⁻⁷ of the delay, 0.02 r_s/c at radii below 1.05 r_s; limit 1. Truth: the judge's integration. `table` is what the game draws with, `exact` the
 closed form in f64, `rk4-256` shooting with 256 steps, `paper1-128` the largest tables of Yamashita 2012.",
     "Error of the place at the end, as a share of the distance from the hole. Limit: 2.7·10⁻⁴, half a pixel at 1920 pixels over 60°. Methods
 of equal steps take the game's own, 1/32 r_s/c, adaptive ones a tolerance of 10⁻⁹. Truth: extrapolation in polar coordinates.",
     "Displacement of surface points on the picture, in pixels: that which 99 % of them stay below, at 320 × 180. All ways are asked for 0.5 px,
-which is the limit. Truth: the judge's rays. Bodies are closed: from within one its surface is not drawn.",
+which is the limit. Truth: the judge's rays.",
     "Rays through corners and edges of closed bodies that pass without a hit, per cent. Limit: none.",
 ];
 

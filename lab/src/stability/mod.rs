@@ -84,7 +84,7 @@ impl Finding {
         [
             self.part.into(),
             self.place.into(),
-            self.method.replace(',', ";"),
+            self.method.clone(),
             u8::from(self.ours).to_string(),
             format!("{:.3e}", self.value),
             self.unit.into(),

@@ -161,7 +161,7 @@ mod tests {
         assert_eq!(chosen("high", true, 50, 500.0), 0);
         assert!(chosen("medium", true, 1, 500.0) > 0);
         assert!(chosen("low", true, 1, 500.0) > chosen("medium", true, 1, 500.0));
-        assert!(chosen("automatic", true, 50, 100.0) > 0);
+        assert!(chosen("automatic", true, 20, 100.0) > 0);
         assert_eq!(chosen("automatic", true, 50, 20.0), 0);
         assert_eq!(chosen("automatic", false, 50, 500.0), 0);
     }

@@ -2,6 +2,9 @@
 //!
 //! It goes down as far as the prediction says as soon as frames are too long, and up a rung at a time, once there has been room for a
 //! while. A rung that turned out too slow is tried again after twice the time.
+//!
+//! Where even the fastest rung is too slow, what the way down has saved is measured. It may be little: the processor's own work, or a card
+//! with more units than pixels. Then the finest rung is taken that is about as fast as the fastest, and the way down is tried again later.
 
 use super::ladder::Rung;
 
@@ -9,6 +12,8 @@ use super::ladder::Rung;
 const SETTLING: u32 = 3;
 /// Frames over which times are averaged before the first judgement.
 const JUDGED: u32 = 5;
+/// Frames on the fastest rung before it is said what the way down has saved.
+const SURE: u32 = 30;
 /// Weight of a new frame in the running mean.
 const WEIGHT: f64 = 0.15;
 /// Longer frames than this, of the time to hold, are too long.
@@ -21,6 +26,13 @@ const ROOM: f64 = 0.85;
 const PATIENCE: [u32; 2] = [30, 1920];
 /// A finer rung that is left within so many frames was a mistake.
 const MISTAKE: u32 = 90;
+
+/// A rung that takes so many times as long as the fastest is as good, where that one is too slow as well.
+const AS_FAST: f64 = 1.05;
+/// Frames before the way down is tried again that has saved too little, at first and at most: each time twice as many.
+const RETRY: [u32; 2] = [600, 9600];
+/// Frames this many times as long as when it was left say that the scene has changed: it is tried again at once.
+const CHANGED: f64 = 1.25;
 
 /// What holds the frame time.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,11 +47,36 @@ pub struct Governor {
     patience: u32,
     /// Whether the last change was to a finer rung.
     climbed: bool,
+    /// Where the way down began: the rung, and its frame time in ms.
+    top: Option<(usize, f64)>,
+    /// A way down that has saved too little.
+    vain: Option<Vain>,
+    /// Frames before the next one is tried again.
+    retry: u32,
+}
+
+/// A way down that has saved too little.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Vain {
+    /// Frames before it is tried again.
+    wait: u32,
+    /// The frame time on the fastest rung, in ms.
+    frame: f64,
 }
 
 impl Default for Governor {
     fn default() -> Self {
-        Governor { rung: 0, since: 0, mean: [0.0; 2], roomy: 0, patience: PATIENCE[0], climbed: false }
+        Governor {
+            rung: 0,
+            since: 0,
+            mean: [0.0; 2],
+            roomy: 0,
+            patience: PATIENCE[0],
+            climbed: false,
+            top: None,
+            vain: None,
+            retry: RETRY[0],
+        }
     }
 }
 
@@ -79,12 +116,27 @@ impl Governor {
             return self.rung;
         }
         let predicted = |mean: f64, rung: usize| mean * ladder[rung].time / ladder[self.rung].time;
-        if self.mean[0] > TOO_LONG * hold && self.rung < last {
+        let too_long = self.mean[0] > TOO_LONG * hold;
+        self.vain = self.vain.filter(|vain| too_long && vain.wait > 1 && self.mean[0] < CHANGED * vain.frame);
+        if let Some(vain) = &mut self.vain {
+            vain.wait -= 1;
+        } else if too_long && self.rung < last {
             let next = (self.rung + 1..last).find(|rung| predicted(self.mean[0], *rung) <= AIM * hold).unwrap_or(last);
             if self.climbed && self.since < MISTAKE {
                 self.patience = (2 * self.patience).min(PATIENCE[1]);
             }
+            self.top.get_or_insert((self.rung, self.mean[0]));
             self.change(next, false);
+        } else if too_long
+            && self.since >= SURE
+            && let Some((top, before)) = self.top.take()
+        {
+            let as_fast = self.as_fast(ladder, top, before);
+            if as_fast < last {
+                self.vain = Some(Vain { wait: self.retry, frame: self.mean[0] });
+                self.retry = (2 * self.retry).min(RETRY[1]);
+                self.change(as_fast, false);
+            }
         } else if self.rung > 0 && predicted(self.mean[1], self.rung - 1) <= ROOM * hold {
             self.roomy += 1;
             if self.roomy >= self.patience {
@@ -93,10 +145,24 @@ impl Governor {
         } else {
             self.roomy = 0;
         }
+        if !too_long {
+            self.top = None;
+        }
         if self.since > PATIENCE[1] {
             self.patience = PATIENCE[0];
         }
         self.rung
+    }
+
+    /// On the last rung: the finest that is about as fast, judged by the way down from `top`, where frames took `before` ms.
+    ///
+    /// A frame takes F + V t on a rung of predicted time t: two measurements give both.
+    fn as_fast(&self, ladder: &[Rung], top: usize, before: f64) -> usize {
+        let last = ladder.len() - 1;
+        let saved = (before - self.mean[0]).max(0.0);
+        let slope = saved / (ladder[top].time - ladder[last].time).max(f64::MIN_POSITIVE);
+        let takes = |rung: usize| self.mean[0] + slope * (ladder[rung].time - ladder[last].time);
+        (0..last).find(|rung| takes(*rung) <= AS_FAST * self.mean[0]).unwrap_or(last)
     }
 
     fn change(&mut self, rung: usize, climbed: bool) {
@@ -116,13 +182,18 @@ mod tests {
 
     /// Runs `frames` frames on a machine that takes `finest` ms for the finest; how often the rung changed.
     fn run(governor: &mut Governor, hold: f64, finest: f64, frames: u32) -> u32 {
+        run_with(governor, hold, [0.0, finest], frames)
+    }
+
+    /// The same where a frame has a part that no rung changes, and one that is `varying` ms on the finest.
+    fn run_with(governor: &mut Governor, hold: f64, [fixed, varying]: [f64; 2], frames: u32) -> u32 {
         let rungs = rungs();
         let mut changes = 0;
         for k in 0..frames {
             let before = governor.rung();
             // Times fluctuate by a twentieth.
             let noise = 1.0 + 0.05 * f64::from(k * 7 % 11) / 5.0 - 0.05;
-            let time = finest * rungs[before].time * noise;
+            let time = (fixed + varying * rungs[before].time) * noise;
             changes += u32::from(governor.follow(&rungs, hold, time, time) != before);
         }
         changes
@@ -153,6 +224,28 @@ mod tests {
         assert_eq!(governor.rung(), 4);
         assert_eq!(governor.follow(&rungs(), 10.0, f64::NAN, 1.0), 4);
         assert_eq!(governor.follow(&[], 10.0, 20.0, 1.0), 0);
+    }
+
+    #[test]
+    fn what_no_rung_makes_faster_is_drawn_finely() {
+        // The processor's own work takes twice the time to hold.
+        let mut governor = Governor::default();
+        let changes = run_with(&mut governor, 7.0, [14.0, 0.5], 4000);
+        assert!(governor.rung() <= 1, "rung {}", governor.rung());
+        assert!(changes <= 9, "{changes} changes");
+        // Half of it is saved: that pays.
+        let mut governor = Governor::default();
+        run_with(&mut governor, 7.0, [5.0, 12.0], 400);
+        assert_eq!(governor.rung(), 4);
+        // Once pixels cost, the dial turns at once.
+        let mut governor = Governor::default();
+        run_with(&mut governor, 16.0, [20.0, 0.5], 400);
+        assert!(governor.rung() <= 1, "rung {}", governor.rung());
+        run_with(&mut governor, 16.0, [2.0, 25.0], 60);
+        assert!(governor.rung() >= 2);
+        // And with room it is as if nothing had been.
+        run_with(&mut governor, 16.0, [4.0, 2.0], 400);
+        assert_eq!((governor.rung(), governor.vain), (0, None));
     }
 
     #[test]
