@@ -64,6 +64,8 @@ const SCENES: [&str; 5] = ["chase", "disk-inner", "parade", "aurora-orbit", "plu
 /// Frames of a scene before the next.
 const EACH: u64 = 50;
 const SIZE: [u32; 2] = [160, 90];
+/// T of the frames, in r_s/c: the camera of `plunge` is inside the horizon, and has not met its end.
+const AT: f64 = 1.5;
 
 /// Resident memory of the process in MiB; None where the system does not say.
 fn resident() -> Option<f64> {
@@ -120,7 +122,7 @@ fn show(gpu: &Gpu, frames: u64, sheet: &mut Sheet, out: &mut impl Write) -> Resu
     for round in 0.. {
         let scene = scene::load(SCENES[round % SCENES.len()])?;
         let stage = Stage::new(&mut renderer, &scene, &config);
-        let moment = Moment::new(&scene, &config, 2.0, 1);
+        let moment = Moment::new(&scene, &config, AT, 1);
         let camera = stage.camera(moment.time(), &moment.ships());
         let rungs = ladder(Prices::shipped(), class_of(&scene));
         for _ in 0..EACH {
