@@ -48,6 +48,9 @@ pub enum DriversError {
          folder with pictures"
     )]
     NoDriver(PathBuf),
+    /// The folder lacks a picture.
+    #[error("{0}: no such file; draw it with `lensrunner shot --scene {1} --size {2}x{3}`")]
+    NoPicture(PathBuf, String, u32, u32),
     /// A picture is of another size than was asked for.
     #[error("{0} is {1} × {2} pixels, but {3} × {4} are compared: draw it with `lensrunner shot --size {3}x{4}`")]
     Size(PathBuf, u32, u32, u32, u32),
@@ -108,6 +111,9 @@ pub fn run(request: &DriversRequest) -> Result<Vec<PathBuf>, DriversError> {
 fn drawn(folder: &Path, scene: &str, [width, height]: [u32; 2]) -> Result<RgbImage, DriversError> {
     let name = Path::new(scene).file_stem().unwrap_or_default();
     let path = folder.join(name).with_extension("png");
+    if !path.is_file() {
+        return Err(DriversError::NoPicture(path, scene.into(), width, height));
+    }
     let failed = |error: image::ImageError| DriversError::Shot {
         scene: scene.into(),
         driver: path.display().to_string(),

@@ -1,7 +1,7 @@
 //! How much of the model the frames of the game are drawn with: `video.quality`, held by a [`Governor`] or fixed.
 
 use bevy::prelude::*;
-use bevy::window::Monitor;
+use bevy::window::{Monitor, OnMonitor, PrimaryWindow};
 
 use crate::play::picture::staging::Staged;
 use crate::play::session::Session;
@@ -21,8 +21,8 @@ pub const LOW: f64 = 0.3;
 const USUAL_RATE: f64 = 60.0;
 /// A frame within this share of the time to hold may have waited for the screen.
 const CAPPED: f64 = 1.1;
-/// What of such a frame is work, where the device has no timestamps.
-const UNKNOWN_WORK: f64 = 0.7;
+/// What of such a frame is taken for work, where the device has no timestamps: little enough that every ladder's next rung is tried.
+const UNKNOWN_WORK: f64 = 0.5;
 
 /// The rung in use, and what chose it.
 #[derive(Resource, Debug, Default)]
@@ -129,16 +129,20 @@ fn hold(config: &GameConfig, rates: impl Iterator<Item = f64>) -> f64 {
 pub(super) fn choose(
     (staged, session): (Res<Staged>, Res<Session>),
     (statistics, real): (Res<RenderStatistics>, Res<Time<Real>>),
-    monitors: Query<&Monitor>,
+    (monitors, windows): (Query<&Monitor>, Query<&OnMonitor, With<PrimaryWindow>>),
     mut quality: ResMut<Quality>,
 ) {
+    let is_new = quality.class != Some(staged.0.class());
     quality.take_up(staged.0.class());
-    let rates = monitors.iter().filter_map(|monitor| monitor.refresh_rate_millihertz).map(|rate| f64::from(rate) / 1000.0);
+    // The window's own display, if that is known.
+    let own = windows.iter().find_map(|on| monitors.get(on.0).ok());
+    let shown: Vec<&Monitor> = own.map_or_else(|| monitors.iter().collect(), |own| vec![own]);
+    let rates = shown.into_iter().filter_map(|monitor| monitor.refresh_rate_millihertz).map(|rate| f64::from(rate) / 1000.0);
     let hold = hold(&session.config, rates);
     let passes = statistics.passes.iter().map(|pass| f64::from(pass.1)).sum();
     let before = quality.rung;
     quality.choose(&session.config, hold, 1000.0 * real.delta_secs_f64(), passes);
-    if quality.rung != before {
+    if is_new || quality.rung != before {
         debug!("picture: {}", quality.says());
     }
 }
@@ -164,6 +168,20 @@ mod tests {
         assert!(chosen("automatic", true, 20, 100.0) > 0);
         assert_eq!(chosen("automatic", true, 50, 20.0), 0);
         assert_eq!(chosen("automatic", false, 50, 500.0), 0);
+    }
+
+    /// Under a display's rate and without timestamps no ladder holds a fast machine down.
+    #[test]
+    fn with_room_every_ladder_is_climbed_to_its_top() {
+        for class in SceneClass::ALL {
+            let mut chosen = Quality::new(true);
+            let mut config = GameConfig::default();
+            config.video.quality = "automatic".into();
+            chosen.take_up(class);
+            chosen.governor.begin_at(chosen.ladder.len() - 1);
+            (0..4000).for_each(|_| chosen.choose(&config, 16.7, 16.7, 0.0));
+            assert_eq!(chosen.rung, 0, "{}", class.name());
+        }
     }
 
     #[test]

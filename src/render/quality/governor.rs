@@ -31,7 +31,7 @@ const MISTAKE: u32 = 90;
 const AS_FAST: f64 = 1.05;
 /// Frames before the way down is tried again that has saved too little, at first and at most: each time twice as many.
 const RETRY: [u32; 2] = [600, 9600];
-/// Frames this many times as long as when it was left say that the scene has changed: it is tried again at once.
+/// Frames so many times as long, or as short, as when something was tried in vain say that the scene has changed: it is tried again.
 const CHANGED: f64 = 1.25;
 
 /// What holds the frame time.
@@ -40,13 +40,17 @@ pub struct Governor {
     rung: usize,
     /// Frames since the last change.
     since: u32,
+    /// The last two frame times and times of work, in ms.
+    recent: [[f64; 2]; 2],
     /// Running mean of frame times and of times of work, in ms.
     mean: [f64; 2],
     /// Frames with room so far.
     roomy: u32,
     patience: u32,
-    /// Whether the last change was to a finer rung.
-    climbed: bool,
+    /// If the last change was to a finer rung: what the finest would have taken then, in ms.
+    climbed: Option<f64>,
+    /// The same before the last step up that turned out too slow.
+    refused: f64,
     /// Where the way down began: the rung, and its frame time in ms.
     top: Option<(usize, f64)>,
     /// A way down that has saved too little.
@@ -69,10 +73,12 @@ impl Default for Governor {
         Governor {
             rung: 0,
             since: 0,
+            recent: [[0.0; 2]; 2],
             mean: [0.0; 2],
             roomy: 0,
             patience: PATIENCE[0],
-            climbed: false,
+            climbed: None,
+            refused: 0.0,
             top: None,
             vain: None,
             retry: RETRY[0],
@@ -105,12 +111,16 @@ impl Governor {
             return self.rung;
         }
         self.since = self.since.saturating_add(1);
+        // The middle of three: a single long frame says nothing.
+        let now = [frame, work.min(frame)];
+        let middle = [0, 1].map(|k| middle([self.recent[0][k], self.recent[1][k], now[k]]));
+        self.recent = [self.recent[1], now];
         if self.since <= SETTLING {
             return self.rung;
         }
         let begun = self.since > SETTLING + 1;
-        for (mean, now) in self.mean.iter_mut().zip([frame, work.min(frame)]) {
-            *mean = if begun { *mean + WEIGHT * (now - *mean) } else { now };
+        for (mean, middle) in self.mean.iter_mut().zip(middle) {
+            *mean = if begun { *mean + WEIGHT * (middle - *mean) } else { middle };
         }
         if self.since < SETTLING + JUDGED {
             return self.rung;
@@ -122,11 +132,13 @@ impl Governor {
             vain.wait -= 1;
         } else if too_long && self.rung < last {
             let next = (self.rung + 1..last).find(|rung| predicted(self.mean[0], *rung) <= AIM * hold).unwrap_or(last);
-            if self.climbed && self.since < MISTAKE {
+            if let Some(finest) = self.climbed.filter(|_| self.since < MISTAKE) {
                 self.patience = (2 * self.patience).min(PATIENCE[1]);
+                self.refused = finest;
             }
-            self.top.get_or_insert((self.rung, self.mean[0]));
-            self.change(next, false);
+            // After a sudden load the mean lags behind.
+            self.top.get_or_insert((self.rung, self.mean[0].max(middle[0])));
+            self.change(next, None);
         } else if too_long
             && self.since >= SURE
             && let Some((top, before)) = self.top.take()
@@ -135,21 +147,22 @@ impl Governor {
             if as_fast < last {
                 self.vain = Some(Vain { wait: self.retry, frame: self.mean[0] });
                 self.retry = (2 * self.retry).min(RETRY[1]);
-                self.change(as_fast, false);
+                self.change(as_fast, None);
             }
         } else if self.rung > 0 && predicted(self.mean[1], self.rung - 1) <= ROOM * hold {
             self.roomy += 1;
+            let finest = self.mean[1] / ladder[self.rung].time;
+            if finest * CHANGED < self.refused {
+                self.patience = PATIENCE[0];
+            }
             if self.roomy >= self.patience {
-                self.change(self.rung - 1, true);
+                self.change(self.rung - 1, Some(finest));
             }
         } else {
             self.roomy = 0;
         }
         if !too_long {
             self.top = None;
-        }
-        if self.since > PATIENCE[1] {
-            self.patience = PATIENCE[0];
         }
         self.rung
     }
@@ -165,9 +178,15 @@ impl Governor {
         (0..last).find(|rung| takes(*rung) <= AS_FAST * self.mean[0]).unwrap_or(last)
     }
 
-    fn change(&mut self, rung: usize, climbed: bool) {
+    fn change(&mut self, rung: usize, climbed: Option<f64>) {
         (self.rung, self.since, self.roomy, self.climbed) = (rung, 0, 0, climbed);
     }
+}
+
+/// The middle one.
+fn middle(mut three: [f64; 3]) -> f64 {
+    three.sort_by(f64::total_cmp);
+    three[1]
 }
 
 #[cfg(test)]
@@ -215,6 +234,38 @@ mod tests {
         let mut governor = Governor::default();
         let changes = run(&mut governor, 40.0, 56.0, 4000);
         assert!(changes < 8, "{changes} changes");
+    }
+
+    #[test]
+    fn a_wrong_prediction_makes_it_swing_less_and_less() {
+        // All rungs but the last take about as long as the finest, and all too long.
+        let real = [1.0, 0.95, 0.9, 0.85, 0.3];
+        let (mut governor, rungs, mut changes) = (Governor::default(), rungs(), [0; 2]);
+        for k in 0..40_000 {
+            let before = governor.rung();
+            let time = 56.0 * real[before];
+            changes[usize::from(k > 4000)] += u32::from(governor.follow(&rungs, 40.0, time, time) != before);
+        }
+        // Up and down once in 1,920 frames.
+        assert!(changes[0] < 20 && changes[1] < 45, "{changes:?}");
+    }
+
+    #[test]
+    fn one_long_frame_changes_nothing_and_a_sudden_load_no_more_than_it_must() {
+        let (mut governor, rungs) = (Governor::default(), rungs());
+        for k in 0..400 {
+            let frame = if k % 100 == 50 { 250.0 } else { 16.7 };
+            assert_eq!(governor.follow(&rungs, 16.7, frame, frame.min(12.0)), 0, "frame {k}");
+        }
+        // From one frame to the next ten times as long: down, and never up again.
+        let mut lowest = 0;
+        for k in 0..200 {
+            let time = 100.0 * rungs[governor.rung()].time;
+            let rung = governor.follow(&rungs, 16.7, time, time);
+            assert!(rung >= lowest, "frame {k}: from {lowest} to {rung}");
+            lowest = rung;
+        }
+        assert_eq!(lowest, 4);
     }
 
     #[test]
