@@ -305,6 +305,16 @@ pub const PRODUCTS: &[Product] = &[
         seconds: [0.0, 0.0],
     },
     Product {
+        name: "soak",
+        runs: &[lab("chart soak -o {}")],
+        quick: &[lab("chart soak --steps 2000 --frames 20 -o {}")],
+        folder: "lab",
+        files: &["soak.csv"],
+        grows: false,
+        sources: &[DRAWN, FLOWN, &["lab/src/soak.rs"]],
+        seconds: [1500.0, 15.0],
+    },
+    Product {
         name: "window",
         runs: &[lab("chart window --size 1280x720,1920x1080 --frames 300 --rounds 2 -o {}")],
         // It needs a display.
