@@ -53,6 +53,7 @@ impl Choices {
             Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return (none, None),
             Err(error) => {
+                warn!("{}: {error}", file.display());
                 return (Choices::default(), Some(format!("{}: {error}. Settings are kept until the game ends.", file.display())));
             }
         };

@@ -69,10 +69,11 @@ impl Records {
     pub fn load_from(folder: &Path) -> (Records, Option<String>) {
         let file = folder.join("records.toml");
         let records = |table| Records { table, folder: Some(folder.to_path_buf()) };
-        let text = match user_file::read_text(&file, user_file::MOST_TEXT).map_err(std::io::Error::from) {
-            Ok(text) => text,
+        let text = match user_file::read(&file, user_file::MOST_TEXT).map_err(std::io::Error::from) {
+            Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return (records(BestTable::new()), None),
             Err(error) => {
+                warn!("{}: {error}", file.display());
                 return (Records::default(), Some(format!("{}: {error}. New scores are kept until the game ends.", file.display())));
             }
         };
@@ -162,13 +163,18 @@ mod tests {
         let folder = folder("damaged");
         std::fs::create_dir_all(&folder).expect("a folder");
         // No score is better than one that is no number.
-        let wrong = ["[broken 1", "[\"01-training\".easy]\nscore = nan\nstars = 3", "[\"01-training\".easy]\nscore = 1.0\nstars = 9"];
+        let wrong: [&[u8]; 4] = [
+            b"[broken 1",
+            b"[\"01-training\".easy]\nscore = nan\nstars = 3",
+            b"[\"01-training\".easy]\nscore = 1.0\nstars = 9",
+            b"# no UTF-8: \xff\n[\xff]",
+        ];
         for (n, wrong) in (1..).zip(wrong) {
             std::fs::write(folder.join("records.toml"), wrong).expect("a file");
             let (records, said) = Records::load_from(&folder);
             assert!(said.is_some_and(|said| said.contains(&format!("damaged-{n}"))));
             assert_eq!(records.best("01-training", Difficulty::Easy), None);
-            let aside = std::fs::read_to_string(folder.join(format!("records.damaged-{n}.toml"))).expect("set aside");
+            let aside = std::fs::read(folder.join(format!("records.damaged-{n}.toml"))).expect("set aside");
             assert_eq!(aside, wrong);
         }
         _ = std::fs::remove_dir_all(&folder);

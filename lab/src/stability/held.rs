@@ -72,7 +72,7 @@ pub const HELD: [Held; 15] = [
         part: "drawing",
         place: "triangles without area at the rim of an image, products fused by the driver",
         must: "the guard of bounds leaves none out that does not leave them",
-        test: ["tests/render/instances/bounds.rs", "triangles_without_area_are_told_from_those_that_enter_a_cap"],
+        test: ["tests/render/instances/bounds.rs", "triangles_without_area_are_told_from_those_that_leave_a_cap"],
         fault: fault("shaders/instances/bounds.wgsl", "    return cross(a, b - a);", "    return cross(a, b);"),
     },
     Held {

@@ -21,8 +21,8 @@ pub use fields::{
     Accessibility, Assist, AuroraConfig, Clock, Controls, Disk, Enemy, GameConfig, HELD, Hole, Interface, METHODS, Render, RulesConfig,
     ShipConfig, Sky, Sound, Video, setting, settings,
 };
-pub(super) use setting::range_text;
 pub use setting::{Allowed, Setting, Value};
+pub(super) use setting::{plain, range_text};
 
 /// The configuration's file where none is named.
 pub const FILE: &str = "game.toml";

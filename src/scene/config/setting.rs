@@ -140,7 +140,7 @@ pub(in crate::scene) fn range_text(min: f64, max: f64, unit: &str) -> String {
 }
 
 /// Long numbers with an exponent, others without.
-fn plain(number: f64) -> String {
+pub(in crate::scene) fn plain(number: f64) -> String {
     if number != 0.0 && !(1e-4..1e10).contains(&number.abs()) { format!("{number:e}") } else { number.to_string() }
 }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use crate::scene::config::range_text;
+use crate::scene::config::{plain, range_text};
 
 /// Something wrong with a value in a scene file: where, and a sentence with key, value and allowed range.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,7 +21,8 @@ pub(crate) fn in_range(value: &Spanned<f64>, key: &str, range: std::ops::RangeIn
     if range.contains(&x) && x.is_finite() {
         return Ok(x);
     }
-    fault(value, format!("{key} = {x} must be from {}", range_text(*range.start(), *range.end(), unit)))
+    let from = if *range.end() >= f64::MAX { "" } else { "from " };
+    fault(value, format!("{key} = {} must be {from}{}", plain(x), range_text(*range.start(), *range.end(), unit)))
 }
 
 /// The fault of a value.

@@ -81,10 +81,10 @@ fn nearest(middle: DVec3, corners: [DVec3; 3]) -> f64 {
     points.map(|point| point.angle_between(middle)).fold(f64::INFINITY, f64::min)
 }
 
-/// A cap that triangles must keep out of, against f64: wide triangles, slivers that point to the middle, and triangles that are a point or
+/// Caps that triangles must keep out of or within, against f64: wide triangles, slivers that point to the middle, and triangles that are a point or
 /// a line but for rounding, of which a driver that fuses products makes what it likes.
 #[test]
-fn triangles_without_area_are_told_from_those_that_enter_a_cap() {
+fn triangles_without_area_are_told_from_those_that_leave_a_cap() {
     let mut rng = StdRng::seed_from_u64(5);
     let mut direction = |about: DVec3, most: f64| {
         let aside = DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)));
@@ -103,14 +103,20 @@ fn triangles_without_area_are_told_from_those_that_enter_a_cap() {
             _ => [direction(a, 0.2), a],
         };
         let radius = 0.01 + 0.3 * f64::from(number % 7) / 7.0;
-        let distance = nearest(middle, [a, b, c]);
+        // Every other cap is one to keep within: there the farthest corner counts.
+        let within = number % 2 == 1;
+        let distance = if within {
+            [a, b, c].map(|corner| corner.angle_between(middle)).into_iter().fold(0.0, f64::max)
+        } else {
+            nearest(middle, [a, b, c])
+        };
         if (distance - radius).abs() < 2e-3 {
             continue;
         }
         let chord = 4.0 * (0.5 * radius).sin().powi(2);
         rows.extend([a, b, c].map(|corner| corner.as_vec3().extend(0.0).to_array()));
-        rows.push(middle.as_vec3().extend(-chord as f32).to_array());
-        truths.push(distance < radius);
+        rows.push(middle.as_vec3().extend(if within { chord } else { -chord } as f32).to_array());
+        truths.push((distance < radius) != within);
     }
     let body = "
 #import lensrunner::instances::bounds::leaves_cap
