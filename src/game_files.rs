@@ -68,10 +68,10 @@ impl GameFile {
         GameFile { path: path.to_path_buf(), place: Place::Disk }
     }
 
-    /// Whether there is such a file.
+    /// Whether there is anything of that name; reading says if it is no file.
     pub fn is_there(&self) -> bool {
         match self.place {
-            Place::Disk => self.path.is_file(),
+            Place::Disk => self.path.exists(),
             Place::Inside(_) => true,
             Place::Nowhere(_) => false,
         }
@@ -79,7 +79,7 @@ impl GameFile {
 
     /// The path, if it is not inside the program.
     pub fn on_disk(&self) -> Option<&Path> {
-        Some(self.path.as_path()).filter(|path| matches!(self.place, Place::Disk) && path.is_file())
+        Some(self.path.as_path()).filter(|path| matches!(self.place, Place::Disk) && path.exists())
     }
 
     /// All bytes, at most `most`.
@@ -120,7 +120,7 @@ impl Shelf<'_> {
     fn find(&self, name: &str) -> GameFile {
         let is_plain = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
         let tried: Vec<PathBuf> = self.folders.iter().filter(|_| is_plain).map(|folder| folder.join(name)).collect();
-        if let Some(path) = tried.iter().find(|path| path.is_file()) {
+        if let Some(path) = tried.iter().find(|path| path.exists()) {
             return GameFile::at(path);
         }
         let place = self.bytes(name).map_or(Place::Nowhere(tried), Place::Inside);

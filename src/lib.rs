@@ -22,6 +22,7 @@
 //!
 //! Units are r_s = c = 1 throughout; T is Painlevé–Gullstrand time.
 
+pub mod argument;
 pub mod game_files;
 pub mod judge;
 pub mod lensing;

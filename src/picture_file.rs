@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
-use crate::user_file::{beside, write_whole};
+use crate::user_file::{self, write_whole};
 
 /// Why a picture could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -64,28 +64,9 @@ pub fn write_png_with_text(path: &Path, rgb: &[u8], size: [u32; 2], text: &str) 
     write_whole(path, &bytes).map_err(|error| fault(error.to_string()))
 }
 
-/// Whether the file can be written, asked before the work that it is for; a file that is there keeps what it holds.
+/// As [`user_file::check_writable`].
 pub fn check_writable(path: &Path) -> Result<(), PictureFileError> {
-    make_folder(path)?;
-    let fault = |error: std::io::Error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() };
-    let is_new = !path.exists();
-    std::fs::OpenOptions::new().append(true).create(true).open(path).map_err(fault)?;
-    if is_new {
-        std::fs::remove_file(path).map_err(fault)?;
-    }
-    // Where the picture is written first.
-    let place = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-    if std::fs::metadata(&place).is_ok_and(|found| !found.is_file()) {
-        return Ok(());
-    }
-    let beside = beside(&place);
-    std::fs::File::create(&beside).and_then(|_| std::fs::remove_file(&beside)).map_err(fault)
-}
-
-/// Makes the folder of a file, where there is none yet.
-fn make_folder(path: &Path) -> Result<(), PictureFileError> {
-    std::fs::create_dir_all(path.parent().unwrap_or(Path::new("")))
-        .map_err(|error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() })
+    user_file::check_writable(path).map_err(|error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() })
 }
 
 /// Writes channels as 32-bit floats, whole or not at all.

@@ -118,6 +118,24 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     })
 }
 
+/// Whether the file can be written, asked before the work that it is for: its folder is made where there is none, and a file that is there
+/// keeps what it holds.
+pub fn check_writable(path: &Path) -> io::Result<()> {
+    std::fs::create_dir_all(path.parent().unwrap_or(Path::new("")))?;
+    let is_new = !path.exists();
+    std::fs::OpenOptions::new().append(true).create(true).open(path)?;
+    if is_new {
+        std::fs::remove_file(path)?;
+    }
+    // Where it is written first.
+    let place = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    if std::fs::metadata(&place).is_ok_and(|found| !found.is_file()) {
+        return Ok(());
+    }
+    let beside = beside(&place);
+    File::create(&beside).and_then(|_| std::fs::remove_file(&beside))
+}
+
 /// The file that is written first, which then takes the place of `path`: another one for each process.
 pub fn beside(path: &Path) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();

@@ -6,12 +6,13 @@ mod map_of_stability;
 mod verdict;
 
 use std::process::ExitCode;
+use std::sync::OnceLock;
 
 use clap::{Parser, Subcommand};
 
 /// The laboratory of Lensrunner: verdicts on the game's picture, and charts of speed against accuracy.
 #[derive(Parser)]
-#[command(version, about)]
+#[command(version = version(), about)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -27,6 +28,15 @@ enum Command {
     Status(all::StatusArgs),
     #[command(hide = true)]
     EmptyWindow(charts::EmptyWindowArgs),
+}
+
+/// Version and commit of the sources.
+fn version() -> &'static str {
+    static VERSION: OnceLock<String> = OnceLock::new();
+    VERSION.get_or_init(|| {
+        let commit = lensrunner_lab::chart::provenance::commit();
+        format!("{} ({})", env!("CARGO_PKG_VERSION"), if commit.is_empty() { "commit unknown" } else { &commit })
+    })
 }
 
 fn main() -> ExitCode {

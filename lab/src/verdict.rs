@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+use lensrunner::argument::{number, whole};
 use lensrunner::judge::case::{self, Case};
 use lensrunner::judge::picture::DEFAULT_PACKET;
 use lensrunner::picture_file::moment::{moment_of, read_moment};
@@ -33,13 +34,13 @@ pub struct CompareArgs {
     #[arg(long, value_name = "PICTURE.png", conflicts_with_all = ["random", "case", "flight", "at", "config", "table"])]
     from: Option<PathBuf>,
     /// Judges N scenes that nobody chose, half of them drawn where methods fail. Those that fail are left in the folder -o.
-    #[arg(long, value_name = "N", conflicts_with_all = ["case", "flight", "size", "at", "samples", "table"])]
+    #[arg(long, value_name = "N", conflicts_with_all = ["case", "flight", "size", "at", "samples", "table"], value_parser = whole::<u64>(1, 1_000_000))]
     random: Option<u64>,
     /// Where the scenes of --random are drawn from.
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, value_parser = whole::<u64>(0, u64::MAX))]
     seed: u64,
     /// The number of the first scene of --random, or the seed of the first chase of --flight: each can be judged alone.
-    #[arg(long, value_name = "K", default_value_t = 0)]
+    #[arg(long, value_name = "K", default_value_t = 0, value_parser = whole::<u64>(0, u64::MAX))]
     first: u64,
     /// Judges case files, as --random leaves them, and those of folders: scene files whose first comment lines say size and T.
     #[arg(long, value_name = "FILE|DIR", num_args = 1.., conflicts_with_all = ["flight", "size", "at", "samples", "table"])]
@@ -49,10 +50,10 @@ pub struct CompareArgs {
     #[arg(long, value_name = "NAME|FILE", conflicts_with_all = ["samples", "table"])]
     flight: Option<String>,
     /// How many chases --flight flies.
-    #[arg(long, value_name = "N", default_value_t = 20)]
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = whole::<u64>(1, 1_000_000))]
     seeds: u64,
     /// At how many moments --flight judges each chase.
-    #[arg(long, value_name = "N", default_value_t = 200)]
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = whole::<usize>(1, 1_000_000))]
     moments: usize,
     /// Leaves what fails as it was drawn, instead of making it smaller for as long as it fails, which takes up to three minutes a case.
     #[arg(long, conflicts_with = "scene")]
@@ -63,20 +64,20 @@ pub struct CompareArgs {
     collect: Option<PathBuf>,
     /// Seconds that the judge may take over a picture; one not traced by then is given up, and it is said how far it came [default: none,
     /// with --random, --case and --flight 60]
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = number)]
     limit: Option<f64>,
     /// Width and height in pixels [default: 1280x720, with --flight 160x90, with --from that of the picture].
     #[arg(long, value_name = "WxH", value_parser = scene::picture_size)]
     size: Option<[u32; 2]>,
     /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed) [default: 0].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = number)]
     at: Option<f64>,
     /// The judge's rays a pixel: a square number, 1 to 256.
-    #[arg(long, value_name = "N", default_value_t = 9)]
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = whole::<u32>(1, 256))]
     samples: u32,
     /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
     /// [default: 1e-12, with --random, --case and --flight 1e-10]
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", allow_negative_numbers = true, value_parser = number)]
     tolerance: Option<f64>,
     /// The game's configuration [default: game.toml here, else the one that the game comes with; with --random, --case and --flight every
     /// value its default].

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use super::score::{Points, Spread, score};
 use super::{Scheme, bake};
+use crate::user_file::check_writable;
 
 /// A line on standard output. A reader that has gone away is no reason to stop: the file is written all the same.
 macro_rules! say {
@@ -29,6 +30,7 @@ pub struct BakeRequest {
 
 /// Bakes with a progress bar, writes the file, prints size, time and the error on fresh random points.
 pub fn run(args: &BakeRequest) -> Result<(), super::TableError> {
+    check_writable(&args.output).map_err(|error| super::TableError::Io(args.output.clone(), error))?;
     let style =
         indicatif::ProgressStyle::with_template("{bar:40} {percent} % {msg}").unwrap_or_else(|_| indicatif::ProgressStyle::default_bar());
     let bar = indicatif::ProgressBar::new(1000).with_style(style).with_message("baking");

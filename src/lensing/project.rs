@@ -50,6 +50,9 @@ pub enum ProjectError {
         /// The name asked for.
         name: String,
     },
+    /// What is handed in cannot be read.
+    #[error("standard input: {0}")]
+    Read(std::io::Error),
     /// The first line is not the header.
     #[error("line 1: expected the header {INPUT_HEADER:?}, found {found:?}")]
     Header {
@@ -123,7 +126,7 @@ pub fn run(input: &mut dyn Read, output: &mut dyn Write, method: &dyn Projector,
     loop {
         let count = match input.read(&mut buffer) {
             Err(error) if error.kind() == std::io::ErrorKind::Interrupted => continue,
-            other => other?,
+            other => other.map_err(ProjectError::Read)?,
         };
         // The last line may go on.
         let last = buffer[..count].iter().rposition(|byte| *byte == b'\n').map_or(0, |last| pending.len() + last + 1);

@@ -30,13 +30,16 @@ pub mod trailer;
 pub mod window;
 pub mod words;
 
-use std::path::PathBuf;
+use std::io::IsTerminal as _;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
+use crate::argument::whole;
 use crate::render::Gpu;
 use crate::scene::{Difficulty, config};
 use crate::sim::replay::Replay;
+use crate::user_file::check_writable;
 use demonstration::DemonstrationRequest;
 use session::Session;
 
@@ -54,7 +57,7 @@ pub struct PlayArgs {
     #[arg(long_help = crate::scene::help("The scene: a TOML file, or the name of one in assets/scenes [default: chase]."))]
     pub scene: Option<String>,
     /// Seed for everything left to chance [default: 0].
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(0, u64::MAX))]
     pub seed: Option<u64>,
     /// Of a mission: easy, normal or hard [default: easy on the title, normal where a scene is named].
     #[arg(long, value_name = "LEVEL")]
@@ -73,7 +76,7 @@ pub struct PlayArgs {
     #[arg(long)]
     pub headless: bool,
     /// Frames to draw: of the demonstration flight [default: 240]; in a window, after which it closes [default: no end].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(1, 1_000_000))]
     pub frames: Option<u32>,
     /// Width and height in pixels [default: 640x360 without a window, else as game.toml says].
     #[arg(long, value_name = "WxH", value_parser = crate::render::shot::size)]
@@ -95,7 +98,8 @@ pub struct PlayArgs {
 /// Where no window is opened, warnings (a model that cannot be read, a table that is baked anew) go to standard error as they are.
 pub fn warn_on_stderr() {
     use bevy::log::tracing_subscriber::fmt;
-    let plain = fmt().with_writer(std::io::stderr).with_max_level(bevy::log::Level::WARN).without_time().with_target(false);
+    let plain = fmt().with_writer(std::io::stderr).with_ansi(std::io::stderr().is_terminal());
+    let plain = plain.with_max_level(bevy::log::Level::WARN).without_time().with_target(false);
     // An error means that somebody listens already.
     _ = bevy::log::tracing::subscriber::set_global_default(plain.finish());
 }
@@ -144,6 +148,22 @@ fn answers(_: &str) -> bool {
     true
 }
 
+/// Says which of the named files and folders cannot be written.
+fn check_places(args: &PlayArgs) -> Result<(), String> {
+    let named = |path: &Path| {
+        let said = path.display().to_string();
+        move |error: std::io::Error| format!("cannot write {said}: {error}")
+    };
+    for file in [&args.sound, &args.timings].into_iter().flatten() {
+        check_writable(file).map_err(named(file))?;
+    }
+    let Some(folder) = args.record.as_deref() else { return Ok(()) };
+    if folder.exists() && !folder.is_dir() {
+        return Err(format!("cannot write to {}: it is no folder", folder.display()));
+    }
+    std::fs::create_dir_all(folder).map_err(named(folder))
+}
+
 /// Plays. Exit code 2 for wrong input, 1 for a failure.
 pub fn run(args: &PlayArgs) -> ExitCode {
     let started = Instant::now();
@@ -173,6 +193,10 @@ pub fn run(args: &PlayArgs) -> ExitCode {
     let mut asked = session.config.clone();
     if let Err(error) = config::assign(&mut asked, &args.set) {
         return fail(&error, 2);
+    }
+    // As is what cannot be written.
+    if let Err(error) = check_places(args) {
+        return fail(&error, 1);
     }
     let without_window = args.headless || !has_display();
     if without_window && args.timings.is_none() {

@@ -19,6 +19,7 @@ use super::sight::apparition;
 use super::simulate::SimulateError;
 use super::{ChaseRules, Clock, app_of, outcome, step};
 use crate::scene::crew::Crew;
+use crate::scene::document::refusal::in_words;
 use crate::scene::mission::Difficulty;
 use crate::scene::ship::Sees;
 use crate::scene::{GameConfig, Scene};
@@ -176,7 +177,7 @@ pub fn fly(
         if !answer.trim_start().starts_with('{') {
             return Err(SimulateError::Input(format!("standard input, line {number}: an action is an object: {{\"thrust\": [0, 0, -1]}}")));
         }
-        let action: Action = serde_json::from_str(&answer).map_err(|error| wrong(brief(&error.to_string())))?;
+        let action: Action = serde_json::from_str(&answer).map_err(|error| wrong(brief(&in_words(&error.to_string()))))?;
         let (hands, span) = action.check().map_err(wrong)?;
         world.insert_resource(Hands { pace, ..hands });
         let steps = (span / world.resource::<Clock>().step).round().max(1.0) as u64;

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::check::{CommandError, files, outcome_name};
 use super::rules::Outcome;
 use super::run::{FlightReport, RunRequest, run};
+use crate::argument::whole;
 use crate::scene::crew::Crew;
 use crate::scene::mission::{Difficulty, Mission};
 use crate::scene::{self, GameConfig, Scene};
@@ -21,10 +22,10 @@ pub struct BalanceArgs {
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub missions: Vec<String>,
     /// Flights of each.
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = whole::<u32>(1, 100_000))]
     pub seeds: u32,
     /// The first seed.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u64>(0, u64::MAX))]
     pub first: u64,
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]

@@ -80,7 +80,7 @@ pub fn civil(days: i64) -> [i64; 3] {
 
 /// The commit of the sources that this was built from, shortened, with "+" if files differ from it; empty where they are not. Documents do
 /// not count: what has just been measured lies there.
-fn commit() -> String {
+pub fn commit() -> String {
     let git = |args: &[&str]| {
         let output = std::process::Command::new("git").args(["-C", env!("CARGO_MANIFEST_DIR")]).args(args).output().ok()?;
         output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())

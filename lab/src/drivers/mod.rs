@@ -10,6 +10,7 @@ use std::process::{Command, Stdio};
 
 use image::RgbImage;
 use lensrunner::render::{DeviceError, Gpu};
+use lensrunner::scene::{self, SceneError};
 use thiserror::Error;
 
 use crate::chart::{Output, Provenance, Sheet, SheetError};
@@ -54,6 +55,9 @@ pub enum DriversError {
     /// A picture is of another size than was asked for.
     #[error("{0} is {1} × {2} pixels, but {3} × {4} are compared: draw it with `lensrunner shot --size {3}x{4}`")]
     Size(PathBuf, u32, u32, u32, u32),
+    /// There is no such scene, or it is wrong.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
     /// There is nothing to draw with.
     #[error(transparent)]
     Device(#[from] DeviceError),
@@ -65,6 +69,14 @@ pub enum DriversError {
     Write(PathBuf, image::ImageError),
 }
 
+impl DriversError {
+    /// Whether what was asked for is wrong, rather than that something failed.
+    pub fn is_input(&self) -> bool {
+        use DriversError::{NoDriver, NoPicture, Scene, Size};
+        matches!(self, NoDriver(_) | NoPicture(..) | Scene(_) | Size(..))
+    }
+}
+
 /// Columns of the sheet.
 pub const COLUMNS: [&str; 6] = ["scene", "pixels", "differ", "elsewhere", "greatest", "FLIP"];
 
@@ -73,6 +85,9 @@ const SHOWN: usize = 3;
 
 /// Draws all scenes by both drivers, writes `drivers.csv` and `drivers.png`, and returns the files.
 pub fn run(request: &DriversRequest) -> Result<Vec<PathBuf>, DriversError> {
+    for name in &request.scenes {
+        scene::load(name)?;
+    }
     let manifest = request.driver.canonicalize().map_err(|_| DriversError::NoDriver(request.driver.clone()))?;
     let other = manifest.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let pictures = manifest.is_dir();
@@ -85,7 +100,11 @@ pub fn run(request: &DriversRequest) -> Result<Vec<PathBuf>, DriversError> {
     let mut all: Vec<(Difference, [RgbImage; 2])> = Vec::new();
     for scene in &request.scenes {
         eprintln!("{scene}");
-        let second = if pictures { drawn(&manifest, scene, request.size)? } else { shot(scene, request, Some(&manifest), &other)? };
+        let second = if pictures {
+            drawn(&manifest, scene, request.size)?
+        } else {
+            shot(scene, request, Some(&manifest), &manifest.display().to_string())?
+        };
         let pair = [shot(scene, request, None, "the first driver")?, second];
         let found = difference(&pair[0], &pair[1]);
         sheet.push([

@@ -7,6 +7,7 @@ pub mod pictures;
 pub mod record;
 pub mod timings;
 
+use std::io::IsTerminal as _;
 use std::time::Instant;
 
 use bevy::log::LogPlugin;
@@ -106,6 +107,11 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
         filter: "error,bevy_render::error_handler=off,bevy_render::view::window=off,lensrunner=".to_owned()
             + if options.verbose { "debug" } else { "info" },
         level: bevy::log::Level::WARN,
+        // As `warn_on_stderr` has it.
+        fmt_layer: |_| {
+            let layer = bevy::log::tracing_subscriber::fmt::Layer::default().without_time().with_target(false);
+            Some(Box::new(layer.with_ansi(std::io::stderr().is_terminal()).with_writer(std::io::stderr)))
+        },
         ..default()
     };
     // Pictures that nobody waits for are drawn at their finest.

@@ -48,11 +48,11 @@ impl Setting<GameConfig> {
     /// A value in words as this setting may have it, or what is wrong.
     pub fn read(&self, word: &str) -> Result<Value, String> {
         let (path, word) = (self.path(), word.trim());
-        let said = || short(word);
+        let wrong = |kind: &str| format!("{path}: {:?} is {kind}, allowed {}", short(word), self.allowed_text());
         let value = match self.allowed {
-            Allowed::Number { .. } => Value::Number(word.parse().map_err(|_| format!("{path}: {:?} is no number", said()))?),
-            Allowed::Integer { .. } => Value::Integer(word.parse().map_err(|_| format!("{path}: {:?} is no whole number", said()))?),
-            Allowed::Switch => Value::Switch(word.parse().map_err(|_| format!("{path}: {:?} must be true or false", said()))?),
+            Allowed::Number { .. } => Value::Number(word.parse().map_err(|_| wrong("no number"))?),
+            Allowed::Integer { .. } => Value::Integer(word.parse().map_err(|_| wrong("no such whole number"))?),
+            Allowed::Switch => Value::Switch(word.parse().map_err(|_| wrong("no switch"))?),
             Allowed::Choice(_) | Allowed::Buttons | Allowed::Words(_) => Value::Word(word.into()),
         };
         self.check(value).map_err(|wrong| format!("{path} = {wrong}"))
@@ -80,8 +80,9 @@ mod tests {
             ("render.orders", "KEY=VALUE"),
             ("render.order=2", "no setting"),
             ("render.orders=7", "1 to 3"),
-            ("render.orders=two", "no whole number"),
-            ("render.bloom=much", "no number"),
+            ("render.orders=two", "no such whole number, allowed whole numbers 1 to 3"),
+            ("render.bloom=much", "no number, allowed 0 to"),
+            ("render.orders=99999999999", "99999999999"),
             ("render.doppler=yes", "true or false"),
             ("render.method=magic", "paper1-128"),
         ] {

@@ -31,7 +31,7 @@ pub const FILE: &str = "game.toml";
 /// folder, beside the program or in the project's folder.
 pub fn file(named: Option<&Path>) -> Option<PathBuf> {
     named.map(Path::to_path_buf).or_else(|| {
-        let here = Some(PathBuf::from(FILE)).filter(|file| file.is_file());
+        let here = Some(PathBuf::from(FILE)).filter(|file| file.exists());
         here.or_else(|| game_files::find(FILE).on_disk().map(Path::to_path_buf))
     })
 }
@@ -203,8 +203,9 @@ fn read(value: &DeValue<'_>) -> Option<Value> {
         DeValue::Integer(number) => {
             let digits = number.as_str().replace('_', "");
             let whole = i64::from_str_radix(&digits, number.radix()).ok();
+            let large = || digits.parse().unwrap_or(f64::INFINITY);
             let small = whole.and_then(|whole| u32::try_from(whole).ok());
-            Some(small.map_or(Value::Number(whole.map_or(f64::INFINITY, |whole| whole as f64)), Value::Integer))
+            Some(small.map_or(Value::Number(whole.map_or_else(large, |whole| whole as f64)), Value::Integer))
         }
         DeValue::Float(number) => number.as_str().replace('_', "").parse().ok().map(Value::Number),
         DeValue::Boolean(on) => Some(Value::Switch(*on)),

@@ -3,6 +3,7 @@
 pub mod depth;
 pub mod error;
 pub mod fault;
+pub mod refusal;
 
 use std::ops::Range;
 use std::path::Path;
@@ -15,6 +16,7 @@ use toml::de::{DeTable, DeValue};
 use crate::user_file::{brief, short};
 use error::{Complaint, Complaints};
 use fault::Fault;
+use refusal::in_words;
 
 /// How many complaints about one file are said.
 pub const MOST_SAID: usize = 20;
@@ -69,7 +71,7 @@ fn shallow(file: &Path, text: &str) -> Result<(), Complaint> {
 
 /// Adds file, line and key to what the TOML reader has to say.
 pub fn syntax(file: &Path, text: &str, error: &toml::de::Error) -> Complaint {
-    let message = brief(&error.message().replace('\n', " "));
+    let message = brief(&in_words(&error.message().replace('\n', " ")));
     match error.span() {
         // What is no TOML has no keys.
         Some(span) => complain(file, text, DeTable::parse(text).ok().as_ref().map(Spanned::get_ref), Fault { span, message }),

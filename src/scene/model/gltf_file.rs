@@ -50,18 +50,47 @@ pub fn read(file: &GameFile) -> Result<GltfFile, ModelError> {
     Ok(file)
 }
 
-/// What a binary file says of its length, and how much memory its JSON would take.
-fn check_outline(bytes: &[u8]) -> Result<(), String> {
+/// The JSON of a binary file, whose header and chunks are checked (glTF 2.0 specification, section 4.4).
+fn binary_json(bytes: &[u8]) -> Result<&[u8], String> {
+    const HEADER: usize = 12;
+    const CHUNK: usize = 8;
+    let there = bytes.len();
     let word = |at: usize| bytes.get(at..at + 4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]) as usize);
-    let mut text = bytes;
-    if bytes.starts_with(b"glTF") {
-        if let Some(length) = word(8).filter(|length| *length < 20) {
-            return Err(format!("its header says {length} bytes, allowed 20 or more"));
-        }
-        // A length that is wrong is refused when it is read.
-        text = bytes.get(20..).unwrap_or_default();
-        text = &text[..word(12).unwrap_or(0).min(text.len())];
+    let cut = |place: &str| format!("{place}: the file ends in it, at byte {there}");
+    let (Some(version), Some(length)) = (word(4), word(8)) else { return Err(cut("header")) };
+    if version != 2 {
+        return Err(format!("header: version {version}, allowed 2"));
     }
+    if !(HEADER + CHUNK..=there).contains(&length) {
+        return Err(format!("header: length {length}, allowed {} to {there}, the bytes of the file", HEADER + CHUNK));
+    }
+    let mut json = None;
+    let mut start = HEADER;
+    for (name, kind) in [("JSON chunk", b"JSON"), ("binary chunk", b"BIN\0")] {
+        if start == length && json.is_some() {
+            break;
+        }
+        let (Some(chunk), Some(found)) = (word(start), bytes.get(start + 4..start + CHUNK)) else { return Err(cut(name)) };
+        if found != kind {
+            return Err(format!("{name}, byte {}: its kind is {:?}, allowed {:?}", start + 4, text(found), text(kind)));
+        }
+        let content = start + CHUNK;
+        if chunk > length.saturating_sub(content) {
+            return Err(format!("{name}, byte {start}: length {chunk}, allowed 0 to {}", length.saturating_sub(content)));
+        }
+        json = json.or(bytes.get(content..content + chunk));
+        start = content + chunk;
+    }
+    Ok(json.unwrap_or_default())
+}
+
+fn text(bytes: &[u8]) -> String {
+    short(&String::from_utf8_lossy(bytes))
+}
+
+/// What a binary file says of its parts, and how much memory its JSON would take.
+fn check_outline(bytes: &[u8]) -> Result<(), String> {
+    let text = if bytes.starts_with(b"glTF") { binary_json(bytes)? } else { bytes };
     let (mut entries, mut is_string, mut is_escaped) = (0, false, false);
     for byte in text {
         if is_string {

@@ -104,7 +104,7 @@ fn has_area(model: &Model) -> bool {
 pub fn model_file(name: &str) -> GameFile {
     let known = game_files::find(&format!("assets/models/{name}"));
     let path = Path::new(name);
-    if known.is_there() || !path.is_file() { known } else { GameFile::at(path) }
+    if known.is_there() || !path.exists() { known } else { GameFile::at(path) }
 }
 
 /// Reads a model by its name under `assets/models/` (or its path); on failure a placeholder and the reason.

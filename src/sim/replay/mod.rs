@@ -192,7 +192,8 @@ impl Replay {
         let damaged = |problem: String| ReplayError::Damaged { path: path.to_path_buf(), problem };
         let file: ReplayFile = document::parse(path, text).map_err(|wrong| {
             let line = wrong.line.map_or_else(String::new, |line| format!(": line {line}"));
-            damaged(format!("it is no replay, or damaged{line}: {}", wrong.problem))
+            let key = if wrong.key.is_empty() { String::new() } else { format!(": {}", wrong.key) };
+            damaged(format!("it is no replay, or damaged{line}{key}: {}", wrong.problem))
         })?;
         if file.replay != FORMAT || file.version != env!("CARGO_PKG_VERSION") {
             let made = format!(
