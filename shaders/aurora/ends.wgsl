@@ -1,9 +1,10 @@
 // Second pass of the aurora: the ends of each streak's chords, from what was projected beside them. One thread per end and image order.
 
 #import lensrunner::aurora::streaks::{
-    across_field, at_height, aurora, between_nodes, chord_height, chord_room, ChordEnd, chords, chords_of, first_reference, node_at, RED,
-    references, segments, streak_of, waits,
+    across_field, at_height, aurora, between_nodes, chord_height, chord_room, ChordEnd, chords, chords_of, end_seen, first_reference, node_at,
+    RED, Reference, references, segments, streak_of, waits,
 }
+#import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::random::{hash, unit}
 
 /// Number of values of the rays' noise, a power of two. The time after which both its drifts have passed a multiple of them is in
@@ -38,6 +39,62 @@ fn night(place: vec2<f32>) -> f32 {
     return 1.0 + dot(place, aurora.strokes.zw) / max(length(place), 1.0);
 }
 
+/// A place as its light arrives.
+struct Arriving {
+    /// Light path times direction, along the axis of hole and camera and across it; and the light path.
+    along: f32,
+    across: vec3<f32>,
+    path: f32,
+    /// Across the axis towards the place, a unit vector, and how far it is from the axis.
+    towards: vec2<f32>,
+    distance: f32,
+    /// What of the direction across the axis is left on the axis itself: the radius of its ring behind the hole, 0 before it.
+    ring: f32,
+}
+
+/// The vector across the axis with these coordinates.
+fn beside(v: vec2<f32>) -> vec3<f32> {
+    return frame.side_a.xyz * v.x + frame.side_b.xyz * v.y;
+}
+
+/// Camera axes.
+fn to_camera(along: f32, across: vec3<f32>, path: f32) -> vec3<f32> {
+    return (frame.camera_from_rain * vec4<f32>(frame.radial.xyz * along + across, -path)).xyz;
+}
+
+/// The place so many km east, north and up of a reference. What depends on its distance from the axis is taken as linear; where about the
+/// axis it is, exactly.
+fn placed(reference: Reference, aside: vec3<f32>) -> Arriving {
+    let left = reference.left.xyz + reference.east.xyz * aside.x + reference.north.xyz * aside.y + reference.up.xyz * aside.z;
+    var place: Arriving;
+    place.distance = length(left.xy);
+    place.towards = vec2<f32>(1.0, 0.0);
+    if place.distance > 0.0 {
+        place.towards = left.xy / place.distance;
+    }
+    let further = place.distance - length(reference.left.xy);
+    let arriving = reference.arriving.xyz + reference.by_across.xyz * further + reference.by_along.xyz * (left.z - reference.left.z);
+    place.along = arriving.x;
+    place.across = beside(place.towards) * arriving.y;
+    place.path = arriving.z;
+    place.ring = arriving.y - reference.by_across.y * place.distance;
+    return place;
+}
+
+/// Most of a turn, in radians, that the standard deviation of a straight stroke may span.
+const MOST_TURN: f32 = 0.1;
+
+/// By how much a place moves as the camera sees it, where what is there moves by `step` (as Reference.left). `wide`: of a streak with this
+/// standard deviation in such steps, no more than MOST_TURN is drawn of the ring that it is drawn out to.
+fn moved(reference: Reference, place: Arriving, step: vec3<f32>, wide: f32) -> vec3<f32> {
+    let outward = dot(place.towards, step.xy);
+    let about = place.towards.x * step.y - place.towards.y * step.x;
+    let change = reference.by_across.xyz * outward + reference.by_along.xyz * step.z;
+    let ring = place.ring / max(place.distance, wide * abs(about) / MOST_TURN + 1e-9);
+    let turned = beside(vec2<f32>(-place.towards.y, place.towards.x)) * about * (reference.by_across.y + ring);
+    return to_camera(change.x, beside(place.towards) * change.y + turned, change.z);
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let ends = chord_room();
@@ -70,8 +127,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let middle = vec3<f32>(reference.east.w, reference.north.w, reference.up.w);
     let aside = transpose(across_field(middle)) * (body - middle);
     var end: ChordEnd;
-    let seen = reference.apparent.xyz + reference.east.xyz * aside.x + reference.north.xyz * aside.y + reference.up.xyz * aside.z;
-    end.apparent = vec4<f32>(seen, reference.apparent.w);
+    let place_seen = placed(reference, aside);
+    let on_ring = abs(place_seen.ring) > 0.5 * length(place_seen.across);
+    let seen_as = end_seen(reference.apparent.w > 0.0, on_ring, place_seen.towards);
+    end.apparent = vec4<f32>(to_camera(place_seen.along, place_seen.across, place_seen.path), seen_as);
     // Along the curtain, in the directions east and north of the place (the plane's middle is the pole), and across it.
     let pole = normalize(place + vec2<f32>(1e-6, 0.0));
     let towards = step / max(length(step), 1e-6);
@@ -83,7 +142,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let now_a = node_at(first, aurora.clock.y).z;
     let now_b = node_at(first + 1u, aurora.clock.y).z;
     let prompt = whole * mix(now_a, now_b, part) * mix(1.0, rays(along, aurora.clock.z, apart), aurora.clock.w);
-    end.along = vec4<f32>(reference.east.xyz * turn.x + reference.north.xyz * turn.y, waited);
-    end.across = vec4<f32>(reference.north.xyz * turn.x - reference.east.xyz * turn.y, prompt);
+    let wide = sqrt(streak.spread);
+    end.along = vec4<f32>(moved(reference, place_seen, reference.east.xyz * turn.x + reference.north.xyz * turn.y, wide.x), waited);
+    end.across = vec4<f32>(moved(reference, place_seen, reference.north.xyz * turn.x - reference.east.xyz * turn.y, wide.y), prompt);
     chords[id.y * aurora.counts.x * ends + index] = end;
 }

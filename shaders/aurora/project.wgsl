@@ -1,13 +1,14 @@
 // First pass of the aurora. For each part of a curtain and each end of its chords, its middle and three points beside it go through the
 // lensing lookup; nothing else does. One thread per end, pole and image order. In flat space apparent positions are linear in positions, so
-// nothing is lost; through bent light a part is short enough.
+// nothing is lost; through bent light a part is short enough, once the turn about the axis of hole and camera is taken apart.
 
 #import lensrunner::aurora::streaks::{
     across_field, at_height, aurora, AURORA_BOTH_POLES, aurora_instances, chord_height, chords_of, GREEN, mean_wait, middle_of, RED,
     Reference, reference_room, references, segments,
 }
 #import lensrunner::geometry::clip::finite_vector
-#import lensrunner::geometry::project::{answer, query_body}
+#import lensrunner::geometry::project::{answer, query_body, side_towards}
+#import lensrunner::gpu::bindings::frame
 
 /// Distance of the points beside it, in km: large against the rounding of the lookup, small against its bending.
 const ASIDE: f32 = 20.0;
@@ -34,18 +35,41 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 
     let instance = aurora_instances[id.y];
     let order = instance.ids.x;
-    var seen: array<vec3<f32>, 4>;
+    var seen: vec3<f32>;
+    var left: array<vec3<f32>, 4>;
+    var arriving: array<vec3<f32>, 4>;
     var valid = true;
     for (var k = 0u; k < 4u; k++) {
         let aside = select(select(select(vec3<f32>(0.0), axes[0], k == 1u), axes[1], k == 2u), axes[2], k == 3u) * ASIDE;
         let found = answer(instance, query_body(body + aside), order);
-        seen[k] = found.ray.apparent;
-        valid = valid && found.ray.valid && finite_vector(found.ray.apparent);
+        seen = select(seen, found.ray.apparent, k == 0u);
+        left[k] = found.by_axis;
+        // The direction from which it comes, times its path.
+        let towards = found.ray.arriving.xyz * (-found.ray.delay / found.ray.arriving.w);
+        let side = side_towards(found.by_axis.xy);
+        arriving[k] = vec3<f32>(dot(towards, frame.radial.xyz), dot(towards, side), found.ray.delay);
+        valid = valid && found.ray.valid && finite_vector(found.ray.apparent) && finite_vector(arriving[k]);
     }
+    // The change of `arriving` in the two coordinates that it depends on: least squares of the three differences.
+    var squares = vec3<f32>(0.0);
+    var across_sum = vec3<f32>(0.0);
+    var along_sum = vec3<f32>(0.0);
+    for (var k = 1u; k < 4u; k++) {
+        let step = vec2<f32>(length(left[k].xy) - length(left[0].xy), left[k].z - left[0].z);
+        let change = arriving[k] - arriving[0];
+        squares += vec3<f32>(step.x * step.x, step.x * step.y, step.y * step.y);
+        across_sum += change * step.x;
+        along_sum += change * step.y;
+    }
+    let determinant = max(squares.x * squares.z - squares.y * squares.y, 1e-30);
     var reference: Reference;
-    reference.apparent = vec4<f32>(seen[0], select(0.0, 1.0, valid));
-    reference.east = vec4<f32>((seen[1] - seen[0]) / ASIDE, body.x);
-    reference.north = vec4<f32>((seen[2] - seen[0]) / ASIDE, body.y);
-    reference.up = vec4<f32>((seen[3] - seen[0]) / ASIDE, body.z);
+    reference.apparent = vec4<f32>(seen, select(0.0, 1.0, valid));
+    reference.left = vec4<f32>(left[0], 0.0);
+    reference.east = vec4<f32>((left[1] - left[0]) / ASIDE, body.x);
+    reference.north = vec4<f32>((left[2] - left[0]) / ASIDE, body.y);
+    reference.up = vec4<f32>((left[3] - left[0]) / ASIDE, body.z);
+    reference.arriving = vec4<f32>(arriving[0], 0.0);
+    reference.by_across = vec4<f32>((across_sum * squares.z - along_sum * squares.y) / determinant, 0.0);
+    reference.by_along = vec4<f32>((along_sum * squares.x - across_sum * squares.y) / determinant, 0.0);
     references[id.y * aurora.history.y * poles * room + id.x] = reference;
 }

@@ -41,15 +41,24 @@ struct Segment {
 struct Reference {
     /// Apparent place, camera axes, in r_s; w: 1 where there is one.
     apparent: vec4<f32>,
-    /// Its change per km in two directions across the field and in one along it (across_field); w: x, y and z of the position itself.
+    /// Where its light left, by the axis of hole and camera (Answer.by_axis), in r_s; w unused.
+    left: vec4<f32>,
+    /// The change of `left` per km in two directions across the field and in one along it (across_field); w: x, y and z of the position
+    /// itself.
     east: vec4<f32>,
     north: vec4<f32>,
     up: vec4<f32>,
+    /// The same light as it arrives, in the plane of hole, camera and place: light path times its direction along the axis (x) and across it
+    /// towards the place (y), and the light path (z), in r_s; and the change of these per r_s of `left` across and along the axis. They are
+    /// smooth on the axis behind the hole, where the apparent place is not.
+    arriving: vec4<f32>,
+    by_across: vec4<f32>,
+    by_along: vec4<f32>,
 }
 
 /// One end of a chord as the camera sees it.
 struct ChordEnd {
-    /// Apparent place, camera axes, in r_s; w: 1 where there is one.
+    /// Apparent place, camera axes, in r_s; w: end_seen.
     apparent: vec4<f32>,
     /// Its change per km along the curtain; w: energy flux over its mean, with the rays, when the green or red light seen there was made.
     along: vec4<f32>,
@@ -131,6 +140,22 @@ fn reference_room() -> u32 {
 fn first_reference(segment: u32, south: bool, instance: u32) -> u32 {
     let poles = select(1u, 2u, (aurora.history.w & AURORA_BOTH_POLES) != 0u);
     return ((instance * aurora.history.y + segment) * poles + select(0u, 1u, south)) * reference_room();
+}
+
+/// How an end of a chord is seen: 0 not at all, 1 well, 2 to 3 on the ring that the axis behind the hole is drawn out to: then the fraction
+/// is where on it, `towards` being the unit vector across the axis.
+fn end_seen(is_seen: bool, on_ring: bool, towards: vec2<f32>) -> f32 {
+    let turns = fract(atan2(towards.y, towards.x) * 0.15915494);
+    return select(0.0, select(1.0, 2.0 + turns, on_ring), is_seen);
+}
+
+/// The longest part of the ring that a chord stands for, in turns.
+const MOST_RING: f32 = 0.06;
+
+/// Whether there is a chord between two ends that are seen so.
+fn is_chord(a: f32, b: f32) -> bool {
+    let apart = abs(a - b);
+    return min(a, b) > 0.0 && (min(a, b) < 2.0 || min(apart, 1.0 - apart) < MOST_RING);
 }
 
 struct Streak {

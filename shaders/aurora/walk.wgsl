@@ -4,8 +4,8 @@
 
 #import lensrunner::aurora::rooms::{light_up, room_of}
 #import lensrunner::aurora::streaks::{
-    aurora, AURORA_LINEAR, chord_at, chord_height, chord_room, chords, chords_of, fall_at, height_of, height_range, photons_of, ranges,
-    segments, Streak, streak_of, strokes,
+    aurora, AURORA_LINEAR, chord_at, chord_height, chord_room, chords, chords_of, fall_at, height_of, height_range, is_chord, photons_of,
+    ranges, segments, Streak, streak_of, strokes,
 }
 #import lensrunner::aurora::stroke::{CORNERS, FILLED, SIGMAS, Stroke}
 #import lensrunner::geometry::clip::clip_position
@@ -130,7 +130,7 @@ fn apparent_at(kind: u32, height: f32, first: u32, count: u32) -> vec4<f32> {
     let s = clamp((above - height) / (above - chord_height(kind, chord + 1u, count)), 0.0, 1.0);
     let a = chords[first + chord].apparent;
     let b = chords[first + chord + 1u].apparent;
-    return vec4<f32>(mix(a.xyz, b.xyz, s), a.w * b.w);
+    return vec4<f32>(mix(a.xyz, b.xyz, s), select(0.0, 1.0, is_chord(a.w, b.w)));
 }
 
 /// A stroke on the screen, in pixels.
@@ -215,7 +215,10 @@ fn line_of(streak: Streak, joined: Joined, first: u32, count: u32, is_linear: bo
     var line: Line;
     line.high = apparent_at(streak.kind, joined.height + joined.half_km, first, count);
     line.low = apparent_at(streak.kind, joined.height - joined.half_km, first, count);
-    if line.high.w * line.low.w == 0.0 {
+    // A long part may go over several chords.
+    let above = chords[first + chord_at(streak.kind, joined.height + joined.half_km, count)].apparent.w;
+    let below = chords[first + chord_at(streak.kind, joined.height - joined.half_km, count) + 1u].apparent.w;
+    if line.high.w * line.low.w == 0.0 || !is_chord(above, below) {
         return line;
     }
     // Linear on the screen between top and foot, if the way of Sekiguchi et al. is asked for.
@@ -390,7 +393,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let made_before = made;
         made = photons_of(fall, streak.kind, light_above(joined.next, count, streak.phase));
         let chord = chord_at(streak.kind, joined.height, chord_count);
-        if chords[first + chord].apparent.w * chords[first + chord + 1u].apparent.w == 0.0 {
+        if !is_chord(chords[first + chord].apparent.w, chords[first + chord + 1u].apparent.w) {
             continue;
         }
         let line = line_of(streak, joined, first, chord_count, is_linear);

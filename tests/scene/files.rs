@@ -145,9 +145,9 @@ fn complaints_name_file_line_key_and_range() {
     for (text, parts) in [
         ("[camera]\nposition = [0.0, 0.0, 15.0]\nfov = 200\n", ["some/scene.toml:3:", "camera.fov", "1 to 170", "degrees"]),
         ("\n[camera]\nposition = [0.0, 0.0, 15.0]\nzoom = 3\n", ["some/scene.toml:4:", "camera.zoom", "unknown field", "fov"]),
-        ("[camera]\nposition = [0.0, 0.0]\n", ["some/scene.toml:2:", "camera.position", "length", "3"]),
-        ("[camera]\nposition = [0.0, 0.0, 15.0, 2.0]\n", ["some/scene.toml:2:", "camera.position", "length 4", "3"]),
-        ("[[gate]]\nposition = [6.0, 0.0, 0.0, 1.0]\nradius = 0.5\n", ["some/scene.toml:2:", "gate[0].position", "length 4", "3"]),
+        ("[camera]\nposition = [0.0, 0.0]\n", ["some/scene.toml:2:", "camera.position", "has 2 values", "3"]),
+        ("[camera]\nposition = [0.0, 0.0, 15.0, 2.0]\n", ["some/scene.toml:2:", "camera.position", "has 4 values", "3"]),
+        ("[[gate]]\nposition = [6.0, 0.0, 0.0, 1.0]\nradius = 0.5\n", ["some/scene.toml:2:", "gate[0].position", "has 4 values", "3"]),
         ("[camera]\nposition = [0.0, 0.0, 1e9]\n", ["some/scene.toml:2:", "camera.position", "10000", "r_s"]),
         ("[camera]\nposition = [nan, 0.0, 5.0]\n", ["some/scene.toml:2:", "camera.position", "finite", "NaN"]),
         ("[[prop]]\nmodel = \"sphere\"\nposition = [0.0, 0.0, 0.5]\n", ["some/scene.toml:3:", "prop[0].position", "0.5", "1.001"]),
@@ -170,7 +170,7 @@ fn complaints_name_file_line_key_and_range() {
         ("[disk]\ninner = \"three\"\n", ["some/scene.toml:2:", "disk.inner", "wrong type", "3 to 50 r_s"]),
         ("[planet]\norbit_radius = 2.0\nradius = 0.5\n", ["some/scene.toml:2:", "planet.orbit_radius", "2", "r_s"]),
         ("[rules]\nhold_time = -1.0\n", ["some/scene.toml:2:", "rules.hold_time", "-1", "r_s/c"]),
-        ("[sky]\nstars = 3\n", ["some/scene.toml:2:", "sky.stars", "boolean", "3"]),
+        ("[sky]\nstars = 3\n", ["some/scene.toml:2:", "sky.stars", "true or false", "3"]),
         ("[camera\n", ["some/scene.toml:1:", "", "", ""]),
         ("[camera]\nfollow = \"ghost\"\n", ["some/scene.toml:2:", "camera.follow", "ghost", "no ship"]),
     ] {
@@ -221,7 +221,7 @@ fn scenes_out_of_all_bounds_are_refused() {
     let ships: String = (0..40_000).map(|k| format!("[[ship]]\nname = \"s{k}\"\norbit = {{ radius = 6.0 }}\n")).collect();
     for (text, parts) in [
         (format!("[camera]\n{long} = 3\n"), ["some/scene.toml:2:", "unknown field", "fov"]),
-        (format!("[camera]\nfov = \"{long}\"\n"), ["some/scene.toml:2:", "camera.fov", "f64"]),
+        (format!("[camera]\nfov = \"{long}\"\n"), ["some/scene.toml:2:", "camera.fov", "must be a number"]),
         (format!("[[prop]]\nmodel = \"{long}\"\n"), ["some/scene.toml:2:", "prop[0].model", "lattice"]),
         (format!("[camera]\nfollow = \"{long}\"\n"), ["some/scene.toml:2:", "camera.follow", "no ship"]),
         (format!("[camera]\nposition = {}", "[".repeat(500_000)), ["some/scene.toml:2:", "allowed are 32 levels", ""]),

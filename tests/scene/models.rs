@@ -127,12 +127,23 @@ fn a_missing_or_broken_model_is_named_and_replaced() {
     for bytes in [&b"not a model"[..], &whole[..whole.len() / 2], &[]] {
         std::fs::write(&path, bytes).unwrap();
         let error = load_model(&path).unwrap_err();
-        assert!(matches!(error, ModelError::Gltf { .. }) && error.to_string().contains("broken.glb"), "{error}");
+        assert!(!matches!(error, ModelError::Read { .. }) && error.to_string().contains("broken.glb"), "{error}");
+    }
+    // Each part of the outline, at its place.
+    for (at, word, said) in [
+        (4, 1, "header: version 1, allowed 2"),
+        (8, 90_000_000, "header: length 90000000, allowed 20 to"),
+        (12, 90_000_000, "JSON chunk, byte 12: length 90000000, allowed 0 to"),
+        (16, 0x41, "JSON chunk, byte 16: its kind is \"A␀␀␀\", allowed \"JSON\""),
+    ] {
+        std::fs::write(&path, [&whole[..at], &u32::to_le_bytes(word), &whole[at + 4..]].concat()).unwrap();
+        let error = load_model(&path).unwrap_err().to_string();
+        assert!(error.contains("broken.glb") && error.contains(said), "{error}");
     }
     // A length that ends before its own header.
     std::fs::write(&path, [&whole[..8], &4u32.to_le_bytes(), &whole[12..]].concat()).unwrap();
     let said = load_model(&path).unwrap_err().to_string();
-    assert!(said.contains("broken.glb") && said.contains("4 bytes, allowed 20"), "{said}");
+    assert!(said.contains("broken.glb") && said.contains("length 4, allowed 20"), "{said}");
 }
 
 /// A model of a text in glTF whose first buffer holds `bytes`, and what became of it.

@@ -24,7 +24,7 @@ use crate::scene::blackbody::xyz_to_rgb;
 const ORDERS: usize = 3;
 /// Bytes of `ChordEnd`, `Reference` and `Stroke` in WGSL.
 const CHORD_END_BYTES: u64 = 48;
-const REFERENCE_BYTES: u64 = 64;
+const REFERENCE_BYTES: u64 = 128;
 const STROKE_BYTES: u64 = 40;
 
 /// Number of heights at which the middle of a part of a curtain is projected, for streaks of so many chords. As in streaks.wgsl.

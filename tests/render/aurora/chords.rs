@@ -42,17 +42,17 @@ fn ends_of(renderer: &mut Renderer, camera: Observer, frame: &AuroraFrame, setti
     let input = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: Some(frame.clone()), settings: *settings };
     renderer.picture(&input, false).unwrap();
     let bytes = readback::buffer(&GPU, renderer.aurora().references()).unwrap();
-    let rows: Vec<[[f32; 4]; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+    let rows: Vec<[[f32; 4]; 8]> = bytemuck::pod_collect_to_vec(&bytes);
     let chords = frame.settings.counts[1] as usize;
     let poles = if frame.settings.history[3] & BOTH_POLES != 0 { 2 } else { 1 };
     let count = frame.instances.len() * frame.segments.len() * poles;
-    let end = |[apparent, east, north, up]: &[[f32; 4]; 4]| {
+    let end = |[apparent, _, east, north, up, ..]: &[[f32; 4]; 8]| {
         let vector = |row: &[f32; 4]| DVec3::new(f64::from(row[0]), f64::from(row[1]), f64::from(row[2]));
         let body = DVec3::new(f64::from(east[3]), f64::from(north[3]), f64::from(up[3]));
         End { body, seen: (apparent[3] > 0.0).then(|| vector(apparent)) }
     };
     // First the ends of green light, then those of red.
-    let of_part = |part: &[[[f32; 4]; 4]]| [&part[..=chords], &part[chords + 1..]].map(|rows| rows.iter().map(end).collect::<Vec<End>>());
+    let of_part = |part: &[[[f32; 4]; 8]]| [&part[..=chords], &part[chords + 1..]].map(|rows| rows.iter().map(end).collect::<Vec<End>>());
     rows.chunks(3 * chords + 2).take(count).flat_map(of_part).collect()
 }
 

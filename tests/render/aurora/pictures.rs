@@ -68,6 +68,34 @@ fn an_aurora_is_drawn_where_it_is_and_only_there() {
     assert!(stage.frame(far, size, 0.0, &[], None, &settings(&config)).aurora.is_none());
 }
 
+/// A planet that passes exactly behind the hole is drawn out to a ring: its curtains lie along it, not across the hole's shadow.
+#[test]
+fn an_aurora_behind_the_hole_leaves_the_shadow_dark() {
+    let (scene, config) = (scene::load("aurora-lensed").unwrap(), GameConfig::default());
+    let size = [160, 90];
+    let mut renderer = renderer(size);
+    let stage = Stage::new(&mut renderer, &scene, &config);
+    for time in [8.0, 8.5, 9.0, 9.5, 10.0] {
+        let camera = stage.camera(time, &[]);
+        // The photon sphere's edge as a static camera sees it (Synge 1966).
+        let r = camera.radius();
+        let shadow = (1.5 * 3f64.sqrt() / r * (1.0 - 1.0 / r).sqrt()).asin();
+        let frame = aurora_alone(&stage, camera, size, time, &config);
+        let picture = renderer.picture(&frame, false).unwrap();
+        let pixels = 0.5 * f64::from(size[0]) / (0.5 * camera.field_of_view).tan();
+        let centre = glam::DVec2::from(camera.pixel(camera.seen_direction(-camera.position), size).unwrap());
+        let (mut inside, mut all) = (0.0, 0.0);
+        for (k, light) in picture.linear.iter().enumerate() {
+            let place = glam::DVec2::new((k as u32 % size[0]) as f64 + 0.5, (k as u32 / size[0]) as f64 + 0.5);
+            let sum: f64 = light.iter().take(3).map(|x| f64::from(*x)).sum();
+            all += sum;
+            inside += if place.distance(centre) < 0.9 * pixels * shadow.tan() { sum } else { 0.0 };
+        }
+        println!("T = {time}: {:.5} of the light lies within the shadow", inside / all);
+        assert!(all > 0.0 && inside < 0.01 * all, "T = {time}: {inside} of {all}");
+    }
+}
+
 #[test]
 fn brightness_never_jumps() {
     let (scene, config) = orbit_scene();
