@@ -119,16 +119,17 @@ struct TraceArgs {
     #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     at: f64,
     /// Rays a pixel: a square number, 1 to 256.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u32>(1, 256))]
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true, value_parser = whole::<u32>(1, 256))]
     samples: u32,
     /// Threads; 0 as many as there are cores.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<usize>(0, 1024))]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole::<usize>(0, 1024))]
     threads: usize,
     /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
     #[arg(long, value_name = "E", default_value_t = case::DEFAULT_TOLERANCE, allow_negative_numbers = true, value_parser = number)]
     tolerance: f64,
     /// Rays along each side of a packet, 1 to 8: neighbours are followed together until they diverge. The picture is the same.
-    #[arg(long, value_name = "N", default_value_t = lensrunner::judge::picture::DEFAULT_PACKET, value_parser = whole::<u32>(1, 8))]
+    #[arg(long, value_name = "N", default_value_t = lensrunner::judge::picture::DEFAULT_PACKET)]
+    #[arg(allow_negative_numbers = true, value_parser = whole::<u32>(1, 8))]
     packet: u32,
     /// Gives up after so many seconds of tracing, with code 1, and says how far it came; without it there is no limit.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = number)]
@@ -173,7 +174,8 @@ struct SimulateArgs {
     #[arg(long, value_name = "KEY=VALUES", conflicts_with_all = ["replay", "save_replay"])]
     sweep: Vec<Axis>,
     /// Flights of each combination of a sweep, from --seed on.
-    #[arg(long, value_name = "N", default_value_t = 1, requires = "sweep", value_parser = whole::<u64>(1, 1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "sweep")]
+    #[arg(allow_negative_numbers = true, value_parser = whole::<u64>(1, 1_000_000))]
     seeds: u64,
     /// Writes the flight as a replay.
     #[arg(long, value_name = "FILE", conflicts_with = "replay")]
@@ -188,7 +190,7 @@ struct SimulateArgs {
     #[arg(long, value_name = "DT", default_value_t = simulate::DEFAULT_EVERY, allow_negative_numbers = true, value_parser = number)]
     every: f64,
     /// Seed for everything left to chance.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u64>(0, u64::MAX))]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole::<u64>(0, u64::MAX))]
     seed: u64,
     /// Where the rows go [default: standard output].
     #[arg(short, value_name = "FILE.csv")]
@@ -207,7 +209,7 @@ struct ProjectArgs {
     #[arg(long, value_name = "NAME", default_value = "exact")]
     method: String,
     /// Which image: 1 the primary, 2 the secondary, 3 the one after a full turn.
-    #[arg(long, default_value_t = 1, value_parser = whole::<u8>(1, 3))]
+    #[arg(long, default_value_t = 1, allow_negative_numbers = true, value_parser = whole::<u8>(1, 3))]
     order: u8,
     /// The frame at the camera in which psi is measured.
     #[arg(long, value_enum, default_value_t = FrameArg::Static)]
@@ -226,7 +228,8 @@ struct ProjectArgs {
 struct BakeArgs {
     /// Size of the table, 5 to 128: nodes along each axis for the schemes of Yamashita 2012, along Φ for the scheme residual (L and r take
     /// fewer).
-    #[arg(long, value_name = "N", default_value_t = lensing::FULL_NODES as u8, value_parser = whole::<u8>(5, 128))]
+    #[arg(long, value_name = "N", default_value_t = lensing::FULL_NODES as u8)]
+    #[arg(allow_negative_numbers = true, value_parser = whole::<u8>(5, 128))]
     nodes: u8,
     /// What is stored.
     #[arg(long, value_name = "NAME", value_enum, default_value_t = SchemeArg::Residual)]
@@ -235,7 +238,7 @@ struct BakeArgs {
     #[arg(short, value_name = "FILE", default_value = "tables/baked.lut")]
     output: PathBuf,
     /// Random points for each order to measure the error on, 0 to measure nothing.
-    #[arg(long, value_name = "N", default_value_t = 30_000, value_parser = whole::<usize>(0, 1_000_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 30_000, allow_negative_numbers = true, value_parser = whole::<usize>(0, 1_000_000_000))]
     points: usize,
 }
 
@@ -310,6 +313,9 @@ fn main() -> ExitCode {
         #[cfg(feature = "game")]
         Some(Command::Trailer(args)) => {
             lensrunner::play::warn_on_stderr();
+            if args.output.extension().is_none_or(|ending| ending != "avi") {
+                return fail(&format!("{}: the name of a film must end in .avi", args.output.display()), 2);
+            }
             match lensrunner::play::trailer::run(&args) {
                 Ok(done) => {
                     // Nobody may be reading.

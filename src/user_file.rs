@@ -28,7 +28,7 @@ pub enum FileFault {
         most: u64,
     },
     /// A file of the game's own that is in none of its folders.
-    #[error("it is in none of: {}inside the program", tried.iter().map(|path| format!("{}, ", path.display())).collect::<String>())]
+    #[error("it is in none of: {}inside the program", tried.iter().map(|path| format!("{}, ", visible(&path.to_string_lossy()))).collect::<String>())]
     Nowhere {
         /// The files that were looked for.
         tried: Vec<PathBuf>,
@@ -186,6 +186,11 @@ pub fn brief(message: &str) -> String {
 pub fn short(text: &str) -> String {
     let said: String = text.chars().take(SAID).map(shown).collect();
     if text.chars().nth(SAID).is_some() { format!("{said}… ({} bytes)", text.len()) } else { said }
+}
+
+/// A text in one line, with pictures for characters that control.
+fn visible(text: &str) -> String {
+    text.chars().map(shown).collect()
 }
 
 /// A character that can be seen.

@@ -43,10 +43,10 @@ pub struct ChartFlightArgs {
     #[command(flatten)]
     chart: ChartArgs,
     /// How often each flight is timed; the median counts.
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = whole::<u8>(1, 255))]
+    #[arg(long, value_name = "N", default_value_t = 3, allow_negative_numbers = true, value_parser = whole::<u8>(1, 255))]
     rounds: u8,
     /// The most evaluations of the equations of motion in a flight; what takes more is left out.
-    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = whole::<u64>(1_000, u64::MAX))]
+    #[arg(long, value_name = "N", default_value_t = 1_000_000, allow_negative_numbers = true, value_parser = whole::<u64>(1_000, u64::MAX))]
     evaluations: u64,
 }
 
@@ -65,7 +65,7 @@ pub struct ChartTessellationArgs {
     #[arg(long, value_name = "PX,…", value_delimiter = ',', default_value = "0.125,0.25,0.5,1,2,4,8")]
     bounds: Vec<f64>,
     /// Rounds of timing in which all ways take turns; the median counts.
-    #[arg(long, value_name = "N", default_value_t = 9, value_parser = whole::<u8>(1, 255))]
+    #[arg(long, value_name = "N", default_value_t = 9, allow_negative_numbers = true, value_parser = whole::<u8>(1, 255))]
     rounds: u8,
 }
 
@@ -93,7 +93,7 @@ pub struct ChartQuarryArgs {
     #[arg(long, value_name = "NAME|FILE", default_value = "02-first-pursuit")]
     scene: String,
     /// Chases of each kind.
-    #[arg(long, value_name = "N", default_value_t = 100, value_parser = whole::<u64>(1, 1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 100, allow_negative_numbers = true, value_parser = whole::<u64>(1, 1_000_000))]
     seeds: u64,
     /// T at which a chase ends undecided, in r_s/c.
     #[arg(long, value_name = "T", default_value_t = 270.0, value_parser = number)]
@@ -107,10 +107,10 @@ pub struct ChartDialArgs {
     #[command(flatten)]
     chart: ChartArgs,
     /// Moments of each class of scenes; with --check moments in all.
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = whole::<u32>(1, 100_000))]
+    #[arg(long, value_name = "N", default_value_t = 8, allow_negative_numbers = true, value_parser = whole::<u32>(1, 100_000))]
     moments: u32,
     /// Seed of the moments; with --check another each time unless it is given.
-    #[arg(long, value_name = "N", value_parser = whole::<u64>(0, u64::MAX))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<u64>(0, u64::MAX))]
     seed: Option<u64>,
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
@@ -153,10 +153,10 @@ pub struct ChartDriversArgs {
 #[derive(Args)]
 pub struct ChartSoakArgs {
     /// Steps of the simulation.
-    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = whole::<u64>(10, 100_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 1_000_000, allow_negative_numbers = true, value_parser = whole::<u64>(10, 100_000_000))]
     steps: u64,
     /// Frames.
-    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = whole::<u64>(10, 10_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 10_000, allow_negative_numbers = true, value_parser = whole::<u64>(10, 10_000_000))]
     frames: u64,
     /// The folder for the table.
     #[arg(short, value_name = "DIR", default_value = chart::DEFAULT_FOLDER)]
@@ -167,7 +167,7 @@ pub struct ChartSoakArgs {
 #[derive(Args)]
 pub struct ChartOverlayArgs {
     /// Frames of each page.
-    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = whole::<u32>(10, 1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 2000, allow_negative_numbers = true, value_parser = whole::<u32>(10, 1_000_000))]
     frames: u32,
 }
 
@@ -181,10 +181,10 @@ pub struct ChartWindowArgs {
     #[arg(long, value_name = "WxH,…", value_delimiter = ',', default_value = "1280x720,1920x1080", value_parser = lensrunner::render::shot::size)]
     size: Vec<[u32; 2]>,
     /// Frames of each run.
-    #[arg(long, value_name = "N", default_value_t = 400, value_parser = whole::<u32>(50, 100_000))]
+    #[arg(long, value_name = "N", default_value_t = 400, allow_negative_numbers = true, value_parser = whole::<u32>(50, 100_000))]
     frames: u32,
     /// How often all runs take turns.
-    #[arg(long, value_name = "N", default_value_t = 2, value_parser = whole::<u32>(1, 100))]
+    #[arg(long, value_name = "N", default_value_t = 2, allow_negative_numbers = true, value_parser = whole::<u32>(1, 100))]
     rounds: u32,
 }
 
@@ -193,7 +193,7 @@ pub struct ChartWindowArgs {
 pub struct EmptyWindowArgs {
     #[arg(long, value_parser = lensrunner::render::shot::size)]
     size: [u32; 2],
-    #[arg(long, value_parser = whole::<u32>(0, u32::MAX.into()))]
+    #[arg(long, allow_negative_numbers = true, value_parser = whole::<u32>(0, u32::MAX.into()))]
     frames: u32,
     #[arg(long)]
     timings: PathBuf,
@@ -211,7 +211,7 @@ pub fn show_empty_window(args: &EmptyWindowArgs) -> ExitCode {
 #[derive(Args)]
 pub struct ChartStepsArgs {
     /// Steps of two ships in each of five runs; with more ships fewer.
-    #[arg(long, value_name = "N", default_value_t = 40_000, value_parser = whole::<u64>(1, 100_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 40_000, allow_negative_numbers = true, value_parser = whole::<u64>(1, 100_000_000))]
     steps: u64,
 }
 
@@ -221,10 +221,11 @@ pub struct ChartProjectionArgs {
     #[command(flatten)]
     chart: ChartArgs,
     /// Adversarial points for each method and image order; about a tenth of them has no ray.
-    #[arg(long, value_name = "N", default_value_t = 340_000, value_parser = whole::<usize>(1, 1_000_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 340_000)]
+    #[arg(allow_negative_numbers = true, value_parser = whole::<usize>(1, 1_000_000_000))]
     points: usize,
     /// Seed of the points.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u64>(0, u64::MAX))]
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true, value_parser = whole::<u64>(0, u64::MAX))]
     seed: u64,
     /// Only these methods, separated by commas.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
@@ -237,10 +238,11 @@ pub struct ChartAuroraArgs {
     #[command(flatten)]
     chart: ChartArgs,
     /// How many of the ten auroras.
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = whole::<u8>(1, 10))]
+    #[arg(long, value_name = "N", default_value_t = 10, allow_negative_numbers = true, value_parser = whole::<u8>(1, 10))]
     auroras: u8,
     /// Numbers of electrons.
-    #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1000,4000,16000", value_parser = whole::<u32>(1, 1_000_000))]
+    #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1000,4000,16000")]
+    #[arg(allow_negative_numbers = true, value_parser = whole::<u32>(1, 1_000_000))]
     electrons: Vec<u32>,
     /// Standard deviations of a point's light in km, 0.1 to 50.
     #[arg(long, value_name = "KM,…", value_delimiter = ',', default_value = "1,2,4", value_parser = aurora::chart::radius)]
@@ -249,7 +251,7 @@ pub struct ChartAuroraArgs {
     #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = aurora::chart::size)]
     size: [usize; 2],
     /// Runs of which the median is taken.
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = whole::<u8>(1, 100))]
+    #[arg(long, value_name = "N", default_value_t = 3, allow_negative_numbers = true, value_parser = whole::<u8>(1, 100))]
     repeats: u8,
 }
 
@@ -259,7 +261,7 @@ pub struct ChartTraceArgs {
     #[command(flatten)]
     chart: ChartArgs,
     /// Pixels along each side of the picture.
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = whole::<u32>(8, 1024))]
+    #[arg(long, value_name = "N", default_value_t = 64, allow_negative_numbers = true, value_parser = whole::<u32>(8, 1024))]
     pixels: u32,
 }
 
@@ -273,7 +275,7 @@ pub struct ChartBvhArgs {
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "bunny,castle,tree10,balls4A,balls4B,balls4C")]
     scenes: Vec<String>,
     /// How often each method runs; the median counts.
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = whole::<u8>(1, 255))]
+    #[arg(long, value_name = "N", default_value_t = 3, allow_negative_numbers = true, value_parser = whole::<u8>(1, 255))]
     rounds: u8,
     /// The Stanford bunny, binary PLY of triangles; without it a blob of as many triangles takes its place.
     #[arg(long, value_name = "FILE.ply", default_value = "../shared/data/bunny.ply")]
@@ -300,13 +302,13 @@ pub struct ChartFrameArgs {
     #[arg(long)]
     rationed: bool,
     /// Frames of each scene.
-    #[arg(long, value_name = "N", default_value_t = 20, value_parser = whole::<u32>(1, 10_000))]
+    #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = whole::<u32>(1, 10_000))]
     frames: u32,
     /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed).
     #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     at: f64,
     /// Frames of the scene `chase`, flown by its pilots from start to end. 0 for none.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u32>(0, 100_000))]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole::<u32>(0, 100_000))]
     flight: u32,
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
@@ -325,13 +327,13 @@ pub struct ChartDiskArgs {
     #[arg(long, value_name = "WxH", default_value = "480x270", value_parser = lensrunner::render::shot::size)]
     error_size: [u32; 2],
     /// Rounds in which all ways take turns.
-    #[arg(long, value_name = "N", default_value_t = 9, value_parser = whole::<u16>(1, 1000))]
+    #[arg(long, value_name = "N", default_value_t = 9, allow_negative_numbers = true, value_parser = whole::<u16>(1, 1000))]
     rounds: u16,
     /// Places along the chase.
-    #[arg(long, value_name = "N", default_value_t = 25, value_parser = whole::<u16>(2, 1000))]
+    #[arg(long, value_name = "N", default_value_t = 25, allow_negative_numbers = true, value_parser = whole::<u16>(2, 1000))]
     steps: u16,
     /// Frames in which the chase is also flown as in the game: 1,000 and more tell what 99.9 % of them stay under. 0 for none.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u32>(0, 100_000))]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole::<u32>(0, 100_000))]
     flight: u32,
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]

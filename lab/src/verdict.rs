@@ -34,13 +34,14 @@ pub struct CompareArgs {
     #[arg(long, value_name = "PICTURE.png", conflicts_with_all = ["random", "case", "flight", "at", "config", "table"])]
     from: Option<PathBuf>,
     /// Judges N scenes that nobody chose, half of them drawn where methods fail. Those that fail are left in the folder -o.
-    #[arg(long, value_name = "N", conflicts_with_all = ["case", "flight", "size", "at", "samples", "table"], value_parser = whole::<u64>(1, 1_000_000))]
+    #[arg(long, value_name = "N", conflicts_with_all = ["case", "flight", "size", "at", "samples", "table"])]
+    #[arg(allow_negative_numbers = true, value_parser = whole::<u64>(1, 1_000_000))]
     random: Option<u64>,
     /// Where the scenes of --random are drawn from.
-    #[arg(long, value_name = "S", default_value_t = 1, value_parser = whole::<u64>(0, u64::MAX))]
+    #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true, value_parser = whole::<u64>(0, u64::MAX))]
     seed: u64,
     /// The number of the first scene of --random, or the seed of the first chase of --flight: each can be judged alone.
-    #[arg(long, value_name = "K", default_value_t = 0, value_parser = whole::<u64>(0, u64::MAX))]
+    #[arg(long, value_name = "K", default_value_t = 0, allow_negative_numbers = true, value_parser = whole::<u64>(0, u64::MAX))]
     first: u64,
     /// Judges case files, as --random leaves them, and those of folders: scene files whose first comment lines say size and T.
     #[arg(long, value_name = "FILE|DIR", num_args = 1.., conflicts_with_all = ["flight", "size", "at", "samples", "table"])]
@@ -50,10 +51,10 @@ pub struct CompareArgs {
     #[arg(long, value_name = "NAME|FILE", conflicts_with_all = ["samples", "table"])]
     flight: Option<String>,
     /// How many chases --flight flies.
-    #[arg(long, value_name = "N", default_value_t = 20, value_parser = whole::<u64>(1, 1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = whole::<u64>(1, 1_000_000))]
     seeds: u64,
     /// At how many moments --flight judges each chase.
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = whole::<usize>(1, 1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 200, allow_negative_numbers = true, value_parser = whole::<usize>(1, 1_000_000))]
     moments: usize,
     /// Leaves what fails as it was drawn, instead of making it smaller for as long as it fails, which takes up to three minutes a case.
     #[arg(long, conflicts_with = "scene")]
@@ -73,7 +74,7 @@ pub struct CompareArgs {
     #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = number)]
     at: Option<f64>,
     /// The judge's rays a pixel: a square number, 1 to 256.
-    #[arg(long, value_name = "N", default_value_t = 9, value_parser = whole::<u32>(1, 256))]
+    #[arg(long, value_name = "N", default_value_t = 9, allow_negative_numbers = true, value_parser = whole::<u32>(1, 256))]
     samples: u32,
     /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
     /// [default: 1e-12, with --random, --case and --flight 1e-10]

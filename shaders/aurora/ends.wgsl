@@ -82,7 +82,7 @@ fn placed(reference: Reference, aside: vec3<f32>) -> Arriving {
 }
 
 /// Most of a turn, in radians, that the standard deviation of a straight stroke may span.
-const MOST_TURN: f32 = 0.1;
+const MOST_TURN: f32 = 0.05;
 
 /// By how much a place moves as the camera sees it, where what is there moves by `step` (as Reference.left). `wide`: of a streak with this
 /// standard deviation in such steps, no more than MOST_TURN is drawn of the ring that it is drawn out to.

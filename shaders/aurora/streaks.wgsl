@@ -150,7 +150,7 @@ fn end_seen(is_seen: bool, on_ring: bool, towards: vec2<f32>) -> f32 {
 }
 
 /// The longest part of the ring that a chord stands for, in turns.
-const MOST_RING: f32 = 0.06;
+const MOST_RING: f32 = 0.04;
 
 /// Whether there is a chord between two ends that are seen so.
 fn is_chord(a: f32, b: f32) -> bool {

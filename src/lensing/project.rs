@@ -101,8 +101,8 @@ pub enum ProjectError {
         /// What is allowed.
         range: &'static str,
     },
-    /// Reading or writing failed.
-    #[error(transparent)]
+    /// The answers cannot be written.
+    #[error("standard output: {0}")]
     Io(#[from] std::io::Error),
 }
 

@@ -57,7 +57,7 @@ pub struct PlayArgs {
     #[arg(long_help = crate::scene::help("The scene: a TOML file, or the name of one in assets/scenes [default: chase]."))]
     pub scene: Option<String>,
     /// Seed for everything left to chance [default: 0].
-    #[arg(long, value_name = "N", value_parser = whole::<u64>(0, u64::MAX))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<u64>(0, u64::MAX))]
     pub seed: Option<u64>,
     /// Of a mission: easy, normal or hard [default: easy on the title, normal where a scene is named].
     #[arg(long, value_name = "LEVEL")]
@@ -76,7 +76,7 @@ pub struct PlayArgs {
     #[arg(long)]
     pub headless: bool,
     /// Frames to draw: of the demonstration flight [default: 240]; in a window, after which it closes [default: no end].
-    #[arg(long, value_name = "N", value_parser = whole::<u32>(1, 1_000_000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<u32>(1, 1_000_000))]
     pub frames: Option<u32>,
     /// Width and height in pixels [default: 640x360 without a window, else as game.toml says].
     #[arg(long, value_name = "WxH", value_parser = crate::render::shot::size)]

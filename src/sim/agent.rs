@@ -177,7 +177,7 @@ pub fn fly(
         if !answer.trim_start().starts_with('{') {
             return Err(SimulateError::Input(format!("standard input, line {number}: an action is an object: {{\"thrust\": [0, 0, -1]}}")));
         }
-        let action: Action = serde_json::from_str(&answer).map_err(|error| wrong(brief(&in_words(&error.to_string()))))?;
+        let action: Action = serde_json::from_str(&answer).map_err(|error| wrong(said(&error)))?;
         let (hands, span) = action.check().map_err(wrong)?;
         world.insert_resource(Hands { pace, ..hands });
         let steps = (span / world.resource::<Clock>().step).round().max(1.0) as u64;
@@ -191,6 +191,13 @@ pub fn fly(
     let mut log = world.remove_resource::<ReplayLog>().ok_or_else(|| SimulateError::Input("nothing was recorded".into()))?;
     log.0.finish(world);
     Ok(log.0)
+}
+
+/// What the reader says of a line, at its column.
+fn said(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    let without_place = text.rfind(" at line ").map_or(text.as_str(), |end| &text[..end]);
+    format!("column {}: {}", error.column(), brief(&in_words(without_place)))
 }
 
 fn observe(world: &World, own: Entity, sees: Sees, outcome: Option<&'static str>) -> Observation {

@@ -22,10 +22,10 @@ pub struct BalanceArgs {
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub missions: Vec<String>,
     /// Flights of each.
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = whole::<u32>(1, 100_000))]
+    #[arg(long, value_name = "N", default_value_t = 200, allow_negative_numbers = true, value_parser = whole::<u32>(1, 100_000))]
     pub seeds: u32,
     /// The first seed.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u64>(0, u64::MAX))]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole::<u64>(0, u64::MAX))]
     pub first: u64,
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]

@@ -132,7 +132,7 @@ fn a_missing_or_broken_model_is_named_and_replaced() {
     // Each part of the outline, at its place.
     for (at, word, said) in [
         (4, 1, "header: version 1, allowed 2"),
-        (8, 90_000_000, "header: length 90000000, allowed 20 to"),
+        (8, 90_000_000, "header: length 90000000, but the file ends after"),
         (12, 90_000_000, "JSON chunk, byte 12: length 90000000, allowed 0 to"),
         (16, 0x41, "JSON chunk, byte 16: its kind is \"A␀␀␀\", allowed \"JSON\""),
     ] {

@@ -39,10 +39,10 @@ pub struct TrailerArgs {
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = crate::render::shot::size)]
     pub size: [u32; 2],
     /// Pictures a second.
-    #[arg(long, value_name = "N", default_value_t = 24, value_parser = whole::<u32>(1, 120))]
+    #[arg(long, value_name = "N", default_value_t = 24, allow_negative_numbers = true, value_parser = whole::<u32>(1, 120))]
     pub fps: u32,
     /// Length in seconds; all parts become longer or shorter.
-    #[arg(long, value_name = "N", default_value_t = 30, value_parser = whole::<u32>(1, 300))]
+    #[arg(long, value_name = "N", default_value_t = 30, allow_negative_numbers = true, value_parser = whole::<u32>(1, 300))]
     pub seconds: u32,
 }
 

@@ -61,8 +61,11 @@ fn binary_json(bytes: &[u8]) -> Result<&[u8], String> {
     if version != 2 {
         return Err(format!("header: version {version}, allowed 2"));
     }
-    if !(HEADER + CHUNK..=there).contains(&length) {
-        return Err(format!("header: length {length}, allowed {} to {there}, the bytes of the file", HEADER + CHUNK));
+    if length < HEADER + CHUNK {
+        return Err(format!("header: length {length}, allowed {} or more", HEADER + CHUNK));
+    }
+    if length > there {
+        return Err(format!("header: length {length}, but the file ends after {there} bytes"));
     }
     let mut json = None;
     let mut start = HEADER;
@@ -90,7 +93,11 @@ fn text(bytes: &[u8]) -> String {
 
 /// What a binary file says of its parts, and how much memory its JSON would take.
 fn check_outline(bytes: &[u8]) -> Result<(), String> {
-    let text = if bytes.starts_with(b"glTF") { binary_json(bytes)? } else { bytes };
+    let is_text = bytes.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{');
+    if !is_text && !bytes.starts_with(b"glTF") {
+        return Err("no glTF: it begins neither with the letters glTF nor with {".into());
+    }
+    let text = if is_text { bytes } else { binary_json(bytes)? };
     let (mut entries, mut is_string, mut is_escaped) = (0, false, false);
     for byte in text {
         if is_string {
