@@ -76,6 +76,8 @@ struct Counters {
     outside: atomic<u32>,
     /// Pieces split so far.
     split: u32,
+    /// Images of bodies that are drawn as if they moved more slowly, as the processor counted them.
+    calmed: u32,
 }
 
 const NO_INSTANCE: u32 = 0xffffffffu;

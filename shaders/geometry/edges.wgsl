@@ -1,6 +1,6 @@
 // Stage 2: one thread per model edge and image order. The number of segments depends on the edge alone, so its two triangles agree on it.
 
-#import lensrunner::chosen::worldlines::{is_rim, MAY_FOLD}
+#import lensrunner::chosen::worldlines::{before_turning, is_rim, MAY_FOLD}
 #import lensrunner::geometry::bindings::{
     ALONE, chunk_of, EDGE_CUT, EDGE_LIMB, EDGE_UNSEEN, model_edge, model_position, NO_INSTANCE, seen, states, VERTEX_ON_AXIS,
     VERTEX_PLAIN, VERTEX_UNSEEN,
@@ -52,7 +52,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     ends.radius = from_seen.leaving.w;
     let alone = edge.z == ALONE;
     ends.limb = is_rim(instance, alone, ends.body_a, ends.body_b)
-        || (!alone && MAY_FOLD && on_limb(instance, edge, from_seen.leaving.xyz, to_seen.leaving.xyz, offset_of(a.xyz)));
+        || (!alone && MAY_FOLD && on_limb(instance, edge, before_turning(instance, from_seen.leaving.xyz, from_seen.apparent.w),
+            before_turning(instance, to_seen.leaving.xyz, to_seen.apparent.w), offset_of(a.xyz)));
     let division = divide(instance, ends);
     states[slot] = vec4<f32>(bitcast<f32>(division.level), bitcast<f32>(select(0u, EDGE_LIMB, ends.limb)), 0.0, division.error);
 }

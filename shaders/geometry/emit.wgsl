@@ -2,6 +2,7 @@
 
 // How a stage hands pieces on: to the rasteriser, to the mesh stage, or back to the queue of pieces. Every index is kept inside its buffer.
 
+#import lensrunner::chosen::worldlines::before_turning
 #import lensrunner::geometry::bindings::{counters, indices, model_triangle, pieces, seen, thin, work}
 #import lensrunner::geometry::clip::clip_position
 #import lensrunner::geometry::patch::{BLOCK, Facing, facing_of}
@@ -88,7 +89,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
         return false;
     }
     // The sum of coverages is right only if each line of sight meets one layer, so backs of closed bodies are left out.
-    let leaving = seen[i0].leaving.xyz + seen[i1].leaving.xyz + seen[i2].leaving.xyz;
+    let leaving = before_turning(instance, seen[i0].leaving.xyz + seen[i1].leaving.xyz + seen[i2].leaving.xyz, seen[i0].apparent.w);
     let from_behind = dot(facing.normal, leaving) < 0.0;
     if facing.closed && from_behind {
         return true;

@@ -8,7 +8,7 @@
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::{Instance, is_thin, ModelTriangle, PIECE_FAN, PIECE_STRIP, PIECE_TRIANGLE, SeenVertex, WorkItem}
 #import lensrunner::instances::bounds::leaves_bounds
-#import lensrunner::instances::instance::{instance_at, normal_of}
+#import lensrunner::instances::instance::instance_at
 
 /// Rows and columns of the vertex `k` of a block.
 fn triangle_row(k: u32) -> u32 {
@@ -236,6 +236,7 @@ fn vertex_at(item: WorkItem, instance: Instance, triangle: ModelTriangle, point:
     var apex = 0.0;
     var apex_height = 0.0;
     var found: Answer;
+    var attitude = vec4<f32>(0.0);
     var count = select(3u, 2u, s == 1.0);
     for (var k = select(0u, 1u, s == 1.0); k < count; k++) {
         var query = query_body(body);
@@ -256,6 +257,7 @@ fn vertex_at(item: WorkItem, instance: Instance, triangle: ModelTriangle, point:
             apex_height = dot(next.position, frame.radial.xyz);
         } else {
             found = next;
+            attitude = select(attitude, next.attitude, k == 1u);
         }
         if k == 1u && s == 1.0 {
             let height = dot(found.position, frame.radial.xyz);
@@ -269,7 +271,7 @@ fn vertex_at(item: WorkItem, instance: Instance, triangle: ModelTriangle, point:
     let v1 = model_vertex(first + triangle.vertices.y);
     let v2 = model_vertex(first + triangle.vertices.z);
     let normal = v0.normal * corner.x + v1.normal * corner.y + v2.normal * corner.z;
-    var vertex = seen_vertex(instance, item.piece.what.x, found, normal_of(instance, normal.xyz),
+    var vertex = seen_vertex(instance, item.piece.what.x, found, attitude, normal.xyz,
         texture_coordinates(instance, triangle, point), v0.info.x + instance.triangles.z);
     if !found.ray.valid || !finite_vector(found.ray.apparent) {
         atomicAdd(&counters.caught, 1u);

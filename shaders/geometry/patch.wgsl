@@ -3,6 +3,7 @@
 // What the stages after the vertices share: the axis, the error of an edge, points of a patch.
 
 #import lensrunner::chosen::held::held_momentum
+#import lensrunner::chosen::worldlines::turning_slack
 #import lensrunner::geometry::bindings::model_position
 #import lensrunner::geometry::clip::pixel_fineness
 #import lensrunner::geometry::project::{Answer, frequency_ratio, leaving_direction, Query, side_towards, Sight}
@@ -11,7 +12,8 @@
     FLAG_MIDPOINT, Instance, INSTANCE_HELD, INSTANCE_NARROW, INSTANCE_THIN, is_thin, ModelTriangle, SeenVertex, SIDE_AGAINST, SIDE_LONE,
     SIDE_OPEN, two_sided,
 }
-#import lensrunner::instances::instance::shaped
+#import lensrunner::instances::instance::{normal_of, shaped}
+#import lensrunner::instances::swing::turned_by
 
 /// Deepest splitting. An edge that passes the axis at a millionth of its length takes a third of it (`halfway`), and not all edges are
 /// halved at the same time.
@@ -27,12 +29,15 @@ fn momentum_at(instance: Instance, position: vec3<f32>) -> vec4<f32> {
     return held_momentum(position);
 }
 
-fn seen_vertex(instance: Instance, index: u32, found: Answer, normal: vec3<f32>, uv: vec2<f32>, material: u32) -> SeenVertex {
+/// The seen vertex of a point that was found; `normal` and `attitude` are those of the body there.
+fn seen_vertex(instance: Instance, index: u32, found: Answer, attitude: vec4<f32>, normal: vec3<f32>, uv: vec2<f32>,
+    material: u32) -> SeenVertex {
     let ray = found.ray;
     var vertex: SeenVertex;
     vertex.apparent = vec4<f32>(ray.apparent, ray.delay);
     let momentum = momentum_at(instance, found.position);
-    vertex.normal = vec4<f32>(normal, frequency_ratio(ray.arriving, ray.leaving, momentum));
+    let turned = select(normal_of(instance, normal), turned_by(attitude, normal), dot(attitude, attitude) > 0.0);
+    vertex.normal = vec4<f32>(turned, frequency_ratio(ray.arriving, ray.leaving, momentum));
     vertex.leaving = vec4<f32>(leaving_direction(ray.leaving, momentum), length(found.position));
     vertex.surface = vec4<f32>(uv, bitcast<f32>(index), bitcast<f32>(material));
     vertex.fan = vec4<f32>(uv, 1.0, found.position.z);
@@ -221,11 +226,11 @@ fn ring_strictness(instance: Instance, nearest: f32, pixel: f32, along: f32) -> 
     return select(1.0, max(closer / slimness(instance), 1.0), axis_matters(along, instance.ids.x) && !by_midpoint());
 }
 
-/// If light leaves a triangle under a sine below this, it may be seen edge on somewhere: so far a ship may turn while light crosses it.
+/// If light leaves a triangle under a sine below this, it may be seen edge on somewhere.
 const LIMB_SINE: f32 = 0.15;
 
 /// Whether the edge of a model between two triangles may be an outline: light leaves one of them outward and the other inward, or does so
-/// differently at its two ends. Normals of vertices, which are for shading, do not tell this for a body with corners. Nor do positions on
+/// differently at its two ends (directions at T₀, `before_turning`). Normals of vertices, which are for shading, do not tell this for a body with corners. Nor do positions on
 /// the screen: an edge stretched along the ring bends by more than the width of its triangles. `edge` has the two vertices of the edge and
 /// the two opposite to it.
 fn on_limb(instance: Instance, edge: vec4<u32>, leaving_a: vec3<f32>, leaving_b: vec3<f32>, offset: vec3<f32>) -> bool {
@@ -238,7 +243,8 @@ fn on_limb(instance: Instance, edge: vec4<u32>, leaving_a: vec3<f32>, leaving_b:
     let n = at_rest(instance, cross(along, c), offset);
     let m = at_rest(instance, cross(d, along), offset);
     let sines = vec4<f32>(dot(n, leaving_a), dot(n, leaving_b), dot(m, leaving_a), dot(m, leaving_b));
-    return !(all(sines > vec4<f32>(LIMB_SINE)) || all(sines < vec4<f32>(-LIMB_SINE)));
+    let least = vec4<f32>(LIMB_SINE + turning_slack(instance));
+    return !(all(sines > least) || all(sines < -least));
 }
 
 /// The error of the chord of a seen curve from a to b, in radians. It is the greatest angle between the points at ¼, ½, ¾ and the chord;
@@ -322,20 +328,20 @@ fn outward_normal(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>
 }
 
 /// If light leaves a triangle below its plane by more than this, as a sine, the body itself hides it. Between the corners the directions of
-/// light vary about as much as among them; this is for what a turning body and curvature add.
+/// light vary about as much as among them; this is for what curvature adds.
 const TURNED_AWAY: f32 = 0.05;
 /// Nearer to the horizon than this radius, in r_s, nothing is left out: static observers there see the body stretched without bound.
 const LEAST_RADIUS_TURNED: f32 = 1.05;
 
 /// Whether all light that a piece of a closed body's triangle sends to the camera leaves on its inner side, so that the body itself hides
-/// it. l0, l1, l2: the directions in which light leaves its corners, rest frame, w: their radii.
+/// it. l0, l1, l2: the directions in which light leaves its corners, rest frame, at T₀ (`before_turning`); w: their radii.
 fn turned_away(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>, l0: vec4<f32>, l1: vec4<f32>, l2: vec4<f32>) -> bool {
     let n = outward_normal(instance, triangle, offset);
     let most = max(dot(n, l0.xyz), max(dot(n, l1.xyz), dot(n, l2.xyz)));
     let spread = max(distance(l0.xyz, l1.xyz), max(distance(l1.xyz, l2.xyz), distance(l2.xyz, l0.xyz)));
     // The crack between two bodies that abut is a small part of a pixel in a slim image.
     let closed = (triangle.vertices.w & SIDE_LONE) != 0u || slimness(instance) > 1.0;
-    return closed && min(l0.w, min(l1.w, l2.w)) > LEAST_RADIUS_TURNED && most < -(TURNED_AWAY + spread);
+    return closed && min(l0.w, min(l1.w, l2.w)) > LEAST_RADIUS_TURNED && most < -(TURNED_AWAY + turning_slack(instance) + spread);
 }
 
 /// A unit normal of a model triangle in the rest frame of what is at `offset` from the camera.

@@ -3,7 +3,7 @@
 // From a point of an object to where the camera sees it: `answer()`.
 
 #import lensrunner::chosen::method::method_ray
-#import lensrunner::chosen::worldlines::{first_guess, swing_at, velocity_at}
+#import lensrunner::chosen::worldlines::{first_guess, swing_at}
 #import lensrunner::geometry::clip::least_pixel
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::{Instance, INSTANCE_MINUS}
@@ -89,6 +89,8 @@ struct Answer {
     by_axis: vec3<f32>,
     /// The same position, from the hole.
     position: vec3<f32>,
+    /// `Swing.attitude` of a body point.
+    attitude: vec4<f32>,
 }
 
 fn query_body(body: vec3<f32>) -> Query {
@@ -125,14 +127,17 @@ fn answer(instance: Instance, query: Query, order: u32) -> Answer {
         var across = query.across;
         var height = query.height;
         var side = query.side;
+        var velocity = vec3<f32>(0.0);
         if query.fixed {
             result.by_axis = vec3<f32>(dot(side, frame.side_a.xyz) * across, dot(side, frame.side_b.xyz) * across, along);
             result.position = frame.radial.xyz * height + side * across;
         } else {
             let swing = swing_at(instance, query.body, s);
-            result.position = instance.position.xyz + swing;
-            let beside = instance.axis.xy + vec2<f32>(dot(swing, frame.side_a.xyz), dot(swing, frame.side_b.xyz));
-            along = dot(instance.offset.xyz + swing, frame.radial.xyz);
+            velocity = swing.velocity;
+            result.attitude = swing.attitude;
+            result.position = instance.position.xyz + swing.offset;
+            let beside = instance.axis.xy + vec2<f32>(dot(swing.offset, frame.side_a.xyz), dot(swing.offset, frame.side_b.xyz));
+            along = dot(instance.offset.xyz + swing.offset, frame.radial.xyz);
             across = length(beside);
             height = dot(result.position, frame.radial.xyz);
             side = side_towards(beside);
@@ -154,7 +159,6 @@ fn answer(instance: Instance, query: Query, order: u32) -> Answer {
             continue;
         }
         let missing = elapsed - result.ray.delay;
-        let velocity = velocity_at(instance, result.position);
         let speed = length(velocity);
         // The search ends when the image moves by less than a fiftieth of a pixel in the missing time. Round the axis it moves as the
         // azimuth turns.

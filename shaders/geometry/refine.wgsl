@@ -1,7 +1,7 @@
 // Stage 4: splitting. One thread per piece. If an edge needs more than eight segments it is halved; else the piece goes to the mesh stage.
 // An edge is judged by its end points alone, so both its sides split it alike.
 
-#import lensrunner::chosen::worldlines::KEEPS_SLIVERS
+#import lensrunner::chosen::worldlines::{before_turning, KEEPS_SLIVERS, turning_slack}
 #import lensrunner::geometry::bindings::{counters, EDGE_LIMB, model_triangle, pieces, states}
 #import lensrunner::geometry::clip::pixel_fineness
 #import lensrunner::geometry::emit::{emit_piece, emit_work, hand_over, off_screen}
@@ -54,7 +54,7 @@ var<private> by_axis: array<vec3<f32>, 12>;
 var<private> rising: vec3<f32>;
 /// `ring_tangent` in the middles of the sides opposite corners 0, 1, 2; of a fan only the first.
 var<private> tangents: array<vec3<f32>, 3>;
-/// Directions in which light leaves the corners, rest frame; w: their radii.
+/// Directions in which light leaves the corners, rest frame, at T₀ (`before_turning`); w: their radii.
 var<private> leaving: array<vec4<f32>, 3>;
 /// Whether one of the points is not seen.
 var<private> unseen: bool;
@@ -96,7 +96,8 @@ fn side_of(piece: Piece, side: u32, instance: Instance) -> Side {
     let pixel = frame.size.z / fineness * length(points[i]);
     let closer = ring_strictness(instance, nearest, pixel, by_axis[i].z);
     // If light grazes a triangle, its image may fold inside it.
-    let grazed = min(rising[i], rising[j]) < LIMB_SINE && max(rising[i], rising[j]) > -LIMB_SINE;
+    let least = LIMB_SINE + turning_slack(instance);
+    let grazed = min(rising[i], rising[j]) < least && max(rising[i], rising[j]) > -least;
     result.level = level_between(corners[i], corners[j], result.error * fineness, closer, grazed, part);
     result.level = min(result.level, most_segments(instance, by_axis[i], by_axis[j], pixel));
     // The points between the ends, in the order of i and j.
@@ -156,7 +157,8 @@ fn measure(piece: Piece, instance: Instance, triangle: ModelTriangle) {
         points[k] = found.ray.apparent;
         unseen = unseen || !found.ray.valid;
         if k < 3u {
-            leaving[k] = vec4<f32>(leaving_direction(found.ray.leaving, momentum_at(instance, found.position)), length(found.position));
+            let left = leaving_direction(found.ray.leaving, momentum_at(instance, found.position));
+            leaving[k] = vec4<f32>(before_turning(instance, left, found.ray.delay), length(found.position));
             rising[k] = dot(normal, leaving[k].xyz);
         }
         if k == 4u || k == 7u || k == 10u {

@@ -2,6 +2,7 @@
 // and hands the rest on: to the mesh stage if eight segments a side are enough, else to be split.
 
 #import lensrunner::chosen::method::METHOD_FILTERS
+#import lensrunner::chosen::worldlines::before_turning
 #import lensrunner::geometry::bindings::{
     chunk_of, counters, EDGE_CUT, model_triangle, NO_INSTANCE, seen, states, VERTEX_ON_AXIS, VERTEX_UNSEEN,
 }
@@ -43,7 +44,8 @@ fn decide(chunk: Chunk, lane: u32) {
         }
         return;
     }
-    if turned_away(instance, triangle, offset_of(o0.xyz), seen[slots.x].leaving, seen[slots.y].leaving, seen[slots.z].leaving) {
+    if turned_away(instance, triangle, offset_of(o0.xyz), leaving_of(instance, slots.x), leaving_of(instance, slots.y),
+        leaving_of(instance, slots.z)) {
         return;
     }
     let e0 = states[instance.ids.w + triangle.edges.x];
@@ -84,6 +86,12 @@ fn decide(chunk: Chunk, lane: u32) {
         return;
     }
     emit_piece(chunk.instance, number, PIECE_TRIANGLE, 0u, corner_a, corner_b, corner_c);
+}
+
+/// The direction in which light leaves a seen vertex, at T₀; w: its radius.
+fn leaving_of(instance: Instance, slot: u32) -> vec4<f32> {
+    let leaving = seen[slot].leaving;
+    return vec4<f32>(before_turning(instance, leaving.xyz, seen[slot].apparent.w), leaving.w);
 }
 
 /// Where the axis meets a triangle, its image opens into an arc. It is cut there into fans.

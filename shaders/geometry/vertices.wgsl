@@ -6,7 +6,7 @@
 #import lensrunner::geometry::clip::finite_vector
 #import lensrunner::geometry::patch::{axis_core, axis_matters, seen_vertex}
 #import lensrunner::geometry::project::{answer, query_body}
-#import lensrunner::instances::instance::{instance_at, normal_of}
+#import lensrunner::instances::instance::instance_at
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
@@ -30,7 +30,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     if !finite_vector(found.by_axis) || (ray.valid && !ok) {
         atomicAdd(&counters.caught, 1u);
     }
-    seen[slot] = seen_vertex(instance, chunk.instance, found, normal_of(instance, vertex.normal.xyz),
+    seen[slot] = seen_vertex(instance, chunk.instance, found, found.attitude, vertex.normal.xyz,
         vec2<f32>(vertex.position.w, vertex.normal.w), vertex.info.x + instance.triangles.z);
     states[slot] = vec4<f32>(found.by_axis, select(VERTEX_UNSEEN, select(VERTEX_PLAIN, VERTEX_ON_AXIS, on_axis), ok));
 }

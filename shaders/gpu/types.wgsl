@@ -72,12 +72,15 @@ struct Instance {
     shape_x: vec4<f32>,
     shape_y: vec4<f32>,
     shape_z: vec4<f32>,
-    /// Angular velocity about T₀ in 1/T, rain axes, its rate, and below dp/dT of the momentum p that contracts the body on the slice;
-    /// w of these three: p at T₀.
+    /// Mean angular velocity about T₀ in 1/T, rain axes; w: by how much the direction of light against a surface, as a sine, may be off
+    /// what this turn tells.
     spin: vec4<f32>,
-    spin_rate: vec4<f32>,
-    /// A jump of the angular velocity; w: when after T₀.
-    jolt: vec4<f32>,
+    /// What was recorded of the flight (instances/recorded.wgsl). x: time of the first node after T₀; y: 1 over the time between two;
+    /// z: number of times between them; w: texel of the first in the table (bits of a u32).
+    nodes: vec4<f32>,
+    /// The momentum p that contracts the body on the slice, at T₀; w unused.
+    drift: vec4<f32>,
+    /// dp/dT; w: 1 if the centre strays from its smooth way, as the nodes tell, else 0.
     force: vec4<f32>,
     /// Columns of the rotation from body axes to rain axes, for normals; w: d³x/dT³ of the centre.
     turn_x: vec4<f32>,

@@ -20,6 +20,11 @@ fn instance_numbers(index: u32, k: u32) -> vec4<f32> {
     return bitcast<vec4<f32>>(instance_words(index, k));
 }
 
+/// A texel of the table.
+fn instance_row(texel: u32) -> vec4<f32> {
+    return instance_numbers(0u, texel);
+}
+
 fn instance_at(i: u32) -> Instance {
     return Instance(
         instance_numbers(i, 0u), instance_numbers(i, 1u), instance_numbers(i, 2u), instance_numbers(i, 3u),

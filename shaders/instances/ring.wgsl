@@ -1,27 +1,34 @@
 #define_import_path lensrunner::instances::ring
 
 // Worldlines of the points of a ring that turns round the hole in the plane z = 0 (Yamashita 2025, section 2.1); used in place of
-// instances/swing.wgsl. In its instance `spin` is x, y: radii of those rims of the disk that are this ring's, or −1; z: dφ/dT; w: azimuth
+// instances/recorded.wgsl. In its instance `spin` is x, y: radii of those rims of the disk that are this ring's, or −1; z: dφ/dT; w: azimuth
 // at T₀ of what has azimuth 0 in the model.
 
 #import lensrunner::gpu::types::Instance
+#import lensrunner::instances::swing::Swing
 
-/// Position of the body point from the hole, `s` after T₀.
-fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> vec3<f32> {
+/// The body point `s` after T₀; its offset is from the hole.
+fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> Swing {
     let angle = instance.spin.w + instance.spin.z * s;
     let c = cos(angle);
     let t = sin(angle);
-    return vec3<f32>(c * body.x - t * body.y, t * body.x + c * body.y, 0.0);
+    let position = vec3<f32>(c * body.x - t * body.y, t * body.x + c * body.y, 0.0);
+    return Swing(position, instance.spin.z * vec3<f32>(-position.y, position.x, 0.0), vec4<f32>(0.0));
 }
 
 /// First guess of the emission time of a point, after T₀: by straight light from where it was at T₀.
 fn first_guess(instance: Instance, body: vec3<f32>) -> f32 {
-    return instance.offset.w - length(instance.offset.xyz + swing_at(instance, body, 0.0));
+    return instance.offset.w - length(instance.offset.xyz + swing_at(instance, body, 0.0).offset);
 }
 
-/// dx/dT of the matter at `position`.
-fn velocity_at(instance: Instance, position: vec3<f32>) -> vec3<f32> {
-    return instance.spin.z * vec3<f32>(-position.y, position.x, 0.0);
+/// As for bodies; no image of a flat ring depends on it.
+fn before_turning(instance: Instance, leaving: vec3<f32>, delay: f32) -> vec3<f32> {
+    return leaving;
+}
+
+/// As for bodies.
+fn turning_slack(instance: Instance) -> f32 {
+    return 0.0;
 }
 
 /// Whether an edge inside the surface may be an outline of its image. Only light within the plane grazes a plane, so a flat ring has no

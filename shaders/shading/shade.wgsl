@@ -1,5 +1,6 @@
 #define_import_path lensrunner::shading::shade
 
+#import lensrunner::chosen::worldlines::before_turning
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::colour::{luminance, shifted_colour}
 #import lensrunner::gpu::types::{FLAG_BEAMING, FLAG_DOPPLER, Instance, INSTANCE_OWN, SeenVertex}
@@ -40,7 +41,7 @@ fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> S
     return Surface(position, vertex.normal, vertex.leaving, vec3<f32>(vertex.surface.xy, vertex.apparent.w), coverage, vertex.fan.xyz,
         vec3<u32>(ids.y, ids.x, u32(kind.y + 1.0)), instance.light_red * filled, instance.light_green * filled,
         instance.light_blue * filled, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive * glow,
-        ground_place(instance, vertex.normal.xyz));
+        ground_place(instance, before_turning(instance, vertex.normal.xyz, vertex.apparent.w)));
 }
 
 /// Factor on the light that falls on the player's own ship, so that middle grey, at the exposure of the frame before, is neither too dark

@@ -8,7 +8,7 @@ use crate::scene::config;
 use crate::sim::hands::choose_pilot;
 use crate::sim::replay::Playback;
 use crate::sim::ship::Player;
-use crate::sim::{Chase, Clock, Engine, Fleet, Hands, ShipMotion, SimSet, outcome, start};
+use crate::sim::{Chase, Clock, Engine, Fleet, Hands, ShipMotion, SimSet, Turning, outcome, start};
 use crate::spacetime::matter::gamma;
 
 use crate::play::camera::orbit::Orbit;
@@ -255,12 +255,11 @@ fn move_hands(
     mut player: ResMut<PlayerState>,
     mut turn: ResMut<MouseTurn>,
     mut hands: ResMut<Hands>,
-    ships: Query<(&ShipMotion, &Engine), With<Player>>,
+    ships: Query<(&ShipMotion, &Engine, &Turning), With<Player>>,
 ) {
     let mut stick = input.stick();
-    for (motion, engine) in &ships {
-        let mouse = turn.pull(engine.max_rate * clock.step / gamma(motion.0.momentum));
-        stick.turn += glam::DVec3::new(mouse.x, mouse.y, 0.0);
+    for (motion, engine, turning) in &ships {
+        stick.turn = turn.pull(stick.turn, engine, turning.0, clock.step / gamma(motion.0.momentum));
     }
     *hands = Hands {
         assist: player.assisted(&session.config),

@@ -79,7 +79,7 @@ impl Scene {
         let mut assembly = Assembly::default();
         let mut files: HashMap<String, usize> = HashMap::new();
         for (index, ship) in self.ships.iter().enumerate() {
-            let model = assembly.file(&mut files, ship.model.as_deref().unwrap_or(default_model(ship)));
+            let model = assembly.file(&mut files, model_of(ship));
             let scale = if ship.ai == Ai::Flee { config.enemy.size } else { config.ship.size };
             assembly.objects.push(Object { name: ship.name.clone(), model, scale, body: Body::Ship(index) });
         }
@@ -107,7 +107,7 @@ impl Scene {
 
     /// The model files that the scene is made of, each once, as the scene names them.
     pub fn model_files(&self) -> Vec<String> {
-        let ships = self.ships.iter().map(|ship| ship.model.as_deref().unwrap_or(default_model(ship)));
+        let ships = self.ships.iter().map(|ship| model_of(ship));
         let props = self.props.iter().filter_map(|prop| if let Shape::File(file) = &prop.shape { Some(file.as_str()) } else { None });
         let mut files: Vec<String> = ships.chain(props).map(String::from).collect();
         files.sort();
@@ -127,7 +127,7 @@ impl Scene {
         }
         if let Some(own) = self.ships.iter().find(|ship| ship.player) {
             let mut files = HashMap::new();
-            let solid = assembly.file(&mut files, own.model.as_deref().unwrap_or(default_model(own)));
+            let solid = assembly.file(&mut files, model_of(own));
             // A file of its own in the list, as it shines otherwise.
             let ghost = ghostly(&assembly.models[solid]);
             assembly.models[solid] = ghost;
@@ -156,10 +156,10 @@ fn glowing(emissive: [f32; 3]) -> Material {
     Material { base_colour: [0.0, 0.0, 0.0, 1.0], metallic: 1.0, roughness: 1.0, emissive, ..Material::default() }
 }
 
-/// The quarry's model for a ship that flees, the hunter's for every other.
-fn default_model(ship: &ShipSpec) -> &'static str {
+/// The name of a ship's model: its own, else the quarry's for a ship that flees and the hunter's for every other.
+pub fn model_of(ship: &ShipSpec) -> &str {
     let [hunter, quarry] = SHIP_MODELS;
-    if ship.ai == Ai::Flee { quarry } else { hunter }
+    ship.model.as_deref().unwrap_or(if ship.ai == Ai::Flee { quarry } else { hunter })
 }
 
 impl Assembly {

@@ -15,15 +15,19 @@ pub enum Crew {
     /// The autopilot.
     #[default]
     Expert,
+    /// Hands that throw the ship about: for judging pictures.
+    Hands,
 }
 
 impl Crew {
-    /// All, the least able first.
-    pub const ALL: [Crew; 3] = [Crew::Naive, Crew::Apprentice, Crew::Expert];
+    /// All.
+    pub const ALL: [Crew; 4] = [Crew::Naive, Crew::Apprentice, Crew::Expert, Crew::Hands];
+    /// Those who try to win, the least able first.
+    pub const RATED: [Crew; 3] = [Crew::Naive, Crew::Apprentice, Crew::Expert];
 
     /// As files and the command line write it.
     pub fn name(self) -> &'static str {
-        ["naive", "apprentice", "expert"][self as usize]
+        ["naive", "apprentice", "expert", "hands"][self as usize]
     }
 }
 
@@ -38,6 +42,6 @@ impl FromStr for Crew {
 
     fn from_str(name: &str) -> Result<Self, String> {
         let found = Crew::ALL.into_iter().find(|crew| crew.name() == name);
-        found.ok_or_else(|| format!("{:?} is no pilot; known: naive, apprentice, expert", short(name)))
+        found.ok_or_else(|| format!("{:?} is no pilot; known: naive, apprentice, expert, hands", short(name)))
     }
 }

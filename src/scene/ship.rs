@@ -11,7 +11,7 @@
 //! facing = "quarry"                # or: it looks at where it sees that ship at the start
 //! scatter = { radius = 0.5, phase = 0.4, tilt = 0.1 }  # by chance it starts so much farther in or out (r_s), on or back (rad), tilted (rad)
 //! attitude = [1.0, 0.0, 0.0, 0.0]  # w, x, y, z: body to rain axes through the pure boost of the momentum; forward is −z
-//! ai = "none"                      # or "flee", "pursue"
+//! ai = "none"                      # or "flee", "pursue"; "hands" throw it about
 //! target = "hunter"                # whom the AI flees or pursues; the first other ship if absent
 //! sees = "now"                     # what the AI knows of others: "now"; "light", what light has brought; "second-image", older light alone
 //! thrust = [{ from = 0.0, until = 10.0, acceleration = [0.0, 0.0, -0.05] }]  # body axes, c²/r_s; with ai = "none" only
@@ -54,6 +54,8 @@ pub enum Ai {
     Flee,
     /// Hunts its target.
     Pursue,
+    /// Is thrown about by seeded hands.
+    Hands,
 }
 
 /// By what a pilot knows other ships.
@@ -230,7 +232,7 @@ pub fn check_ships(entries: &[Spanned<ShipEntry>]) -> Result<Vec<ShipSpec>, Faul
             let others = if names.is_empty() { "there is none".into() } else { format!("{names:?}") };
             return fault(target, format!("{:?} must be another ship of the scene: {others}", target.get_ref()));
         }
-        if entry.ai != Ai::None && ships.len() < 2 {
+        if matches!(entry.ai, Ai::Flee | Ai::Pursue) && ships.len() < 2 {
             return fault(&entry.name, "ai = \"flee\" and \"pursue\" need another ship in the scene".into());
         }
     }

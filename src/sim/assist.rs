@@ -68,7 +68,7 @@ const LOOK_AHEAD: (f64, usize) = (12.0, 24);
 /// The command without assist: the sticks as they are.
 pub fn direct(stick: &Stick, engine: &Engine) -> Command {
     let stick = Stick { thrust: stick.thrust.clamp(DVec3::NEG_ONE, DVec3::ONE), turn: stick.turn.clamp(DVec3::NEG_ONE, DVec3::ONE) };
-    Command { thrust: (stick.thrust * engine.max_thrust).clamp_length_max(engine.max_thrust), rates: stick.turn * engine.max_rate }
+    Command { thrust: (stick.thrust * engine.max_thrust).clamp_length_max(engine.max_thrust), rates: stick.turn * engine.fastest_turn() }
 }
 
 /// The command with assist. Where the stick rests, drift sideways and backwards fades; forward motion is kept, so that the nose steers.

@@ -52,7 +52,7 @@ pub struct BalanceRow {
 
 /// Every difficulty and crew, in the order of the tables.
 fn pairs() -> impl Iterator<Item = (Difficulty, Crew)> {
-    Difficulty::ALL.into_iter().flat_map(|difficulty| Crew::ALL.into_iter().map(move |crew| (difficulty, crew)))
+    Difficulty::ALL.into_iter().flat_map(|difficulty| Crew::RATED.into_iter().map(move |crew| (difficulty, crew)))
 }
 
 /// Flies them all; `done` is told of each.
@@ -154,8 +154,8 @@ fn table(missions: &[Scene], rows: &[BalanceRow], args: &BalanceArgs) -> String 
         for difficulty in Difficulty::ALL {
             let of = |crew: Crew| rows.iter().filter(move |row| row.mission == index && row.difficulty == difficulty && row.crew == crew);
             let share = |crew: Crew| format!("{:.0} %", 100.0 * wins(of(crew)));
-            let [naive, apprentice, expert] = Crew::ALL.map(share);
-            let [slow, _, quick] = Crew::ALL.map(|crew| middle(of(crew), mission));
+            let [naive, apprentice, expert] = Crew::RATED.map(share);
+            let [slow, _, quick] = Crew::RATED.map(|crew| middle(of(crew), mission));
             let ends = ends(rows.iter().filter(|row| row.mission == index && row.difficulty == difficulty));
             _ = writeln!(text, "| {} | {difficulty} | {naive} | {apprentice} | {expert} | {slow} | {quick} | {ends} |", mission.title);
         }

@@ -196,7 +196,7 @@ impl Step<'_, '_, '_, '_> {
         let r = own.position.length();
         match *task {
             GoalTask::Burn { .. } if before.fuel.is_finite() => so_far + (before.fuel - fuel.left).max(0.0),
-            GoalTask::Burn { .. } => so_far + engine.limit(&controls.0).thrust.length() * self.clock.step,
+            GoalTask::Burn { .. } => so_far + engine.thrust(controls.0.thrust).length() * self.clock.step,
             GoalTask::Turn { .. } => so_far + rotation(before.attitude, own.attitude).length(),
             // The assist goes on with a little, as drift fades.
             GoalTask::Coast { .. } => lasts(controls.0.thrust.length() < COASTING * engine.max_thrust),

@@ -308,6 +308,18 @@ impl History {
         self.looked_up.at(oldest, time)
     }
 
+    /// The last node at or before T = `time` and the T from there to the next, in r_s/c. Before the nodes from the start on, and after them,
+    /// the ship coasts: there the nearest of them, and no next.
+    pub fn node_at(&self, time: f64) -> (f64, f64) {
+        match self.nodes.partition_point(|node| node.time <= time) {
+            0 => (self.nodes[0].time, f64::INFINITY),
+            after => {
+                let (node, next) = (self.nodes[after - 1].time, self.nodes.get(after).map(|node| node.time));
+                (node, next.map_or(f64::INFINITY, |next| next - node))
+            }
+        }
+    }
+
     /// The proper acceleration by the engines in c²/r_s, its mean over the `span` r_s/c of T before `time`: from what they add to the
     /// momentum of free fall. 0 where the ship coasts, as it does before the first node and after the last.
     pub fn thrust(&self, time: f64, span: f64) -> f64 {
@@ -317,19 +329,6 @@ impl History {
         let legs = self.nodes[first..(after + 1).clamp(first, self.nodes.len())].windows(2);
         let burnt: f64 = legs.map(|leg| burn(&leg[0]) * (leg[1].time.min(time) - leg[0].time.max(from)).max(0.0)).sum();
         burnt / span
-    }
-
-    /// The time between `from` and `to` (T in r_s/c) at which the angular velocity jumps the most, by a command, and by how much (rain
-    /// axes, in c/r_s) beyond what it changes from node to node anyway. None where fewer than three nodes lie in between.
-    pub fn jolt(&self, from: f64, to: f64) -> Option<(f64, DVec3)> {
-        let past = &self.past[self.past.partition_point(|node| node.time >= to)..self.past.partition_point(|node| node.time > from)];
-        let since = &self.nodes[self.nodes.partition_point(|node| node.time <= from)..self.nodes.partition_point(|node| node.time < to)];
-        let within: Vec<&Node> = past.iter().rev().chain(since).collect();
-        let rates: Vec<DVec3> = within.windows(2).map(|pair| turning(pair[0], pair[1])).collect();
-        let jumps: Vec<DVec3> = rates.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let (most, jump) = jumps.iter().enumerate().max_by(|a, b| a.1.length_squared().total_cmp(&b.1.length_squared()))?;
-        let beside = [most.checked_sub(1), Some(most + 1)].map(|k| k.and_then(|k| jumps.get(k)).copied().unwrap_or(DVec3::ZERO));
-        Some((within[most + 1].time, *jump - 0.5 * (beside[0] + beside[1])))
     }
 
     /// Bounds on how the ship moves from T = `from` to `to`, from the nodes; None beyond the first and the last of them, but where it is

@@ -45,7 +45,7 @@ pub use pilot::{Chance, EnemyAiPlugin, Skill, Skills};
 pub use replay::PlaybackPlugin;
 pub use rules::{Chase, ChaseRules, ChaseRulesPlugin, Outcome, begin_chase};
 pub use setup::{app_of, board, outcome, start, step};
-pub use ship::{Controls, Ended, Engine, Fleet, Fuel, Manual, Ship, ShipMotion};
+pub use ship::{Controls, Ended, Engine, Fleet, Fuel, Manual, Ship, ShipMotion, Turning};
 
 /// The order of a fixed step.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -3,12 +3,12 @@
 use bevy::prelude::*;
 
 use crate::scene::ship::Burn;
-use crate::spacetime::matter::has_ended;
+use crate::spacetime::matter::{gamma, has_ended};
 
 use super::clock::Clock;
 use super::flight::{Command, Flight, fly};
 use super::history::History;
-use super::ship::{Controls, CrossedHorizon, EndReason, Ended, Engine, Fleet, Fuel, Programme, Ship, ShipMotion};
+use super::ship::{Controls, CrossedHorizon, EndReason, Ended, Engine, Fleet, Fuel, Programme, Ship, ShipMotion, Turning};
 use super::{SimEvent, SimSet};
 
 /// Integrates the ships, in `SimSet::Integrate`; the clock goes on last.
@@ -23,8 +23,11 @@ impl Plugin for ShipPhysicsPlugin {
     }
 }
 
-type Flying<'a> =
-    (&'a Ship, &'a mut ShipMotion, &'a mut Fuel, &'a mut History, &'a Controls, &'a Engine, &'a Programme, Has<CrossedHorizon>);
+type Flying<'a> = (
+    (&'a Ship, &'a Engine, &'a Controls, &'a Programme),
+    (&'a mut ShipMotion, &'a mut Turning, &'a mut Fuel, &'a mut History),
+    Has<CrossedHorizon>,
+);
 
 /// Flies every ship that has not ended from `clock.time` to the next step, adding the substeps to its history.
 pub fn integrate_ships(
@@ -36,11 +39,13 @@ pub fn integrate_ships(
 ) {
     let (from, to) = (clock.time, clock.next());
     for &entity in &fleet.0 {
-        let Ok((ship, mut motion, mut fuel, mut history, controls, engine, programme, crossed)) = ships.get_mut(entity) else {
+        let Ok(((ship, engine, controls, programme), (mut motion, mut turning, mut fuel, mut history), crossed)) = ships.get_mut(entity)
+        else {
             continue;
         };
         let flight = Flight { state: motion.0, fuel: fuel.left };
-        let order = engine.limit(&controls.0);
+        turning.0 = engine.turn(controls.0.rates, turning.0, (to - from) / gamma(motion.0.momentum));
+        let order = Command { thrust: engine.thrust(controls.0.thrust), rates: turning.0 };
         let (end, reached) = fly(&flight, from, to, order, &programme.0, |leg| history.push(leg.time, leg.state, &leg.command));
         if flight.fuel > 0.0 && end.fuel <= 0.0 {
             events.write(SimEvent::FuelSpent { ship: ship.name.clone(), time: to });

@@ -4,7 +4,9 @@ use bevy::ecs::schedule::SingleThreadedExecutor;
 use bevy::prelude::*;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
+use crate::scene::assembly::model_of;
 use crate::scene::crew::Crew;
+use crate::scene::model::import::radius_of;
 use crate::scene::ship::{Ai, ShipSpec};
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::Observer;
@@ -16,9 +18,10 @@ use super::goals::{ActiveMission, Progress};
 use super::hands::{Hands, HandsRule};
 use super::history::History;
 use super::pilot::beginner::Beginner;
+use super::pilot::jerky::Jerky;
 use super::pilot::{Chance, Mind, Skill, Skills};
 use super::rules::{Chase, ChaseRules, begin_chase};
-use super::ship::{Controls, Engine, Fleet, Fuel, Pilot, PilotOrder, Player, Programme, Ship, ShipMotion};
+use super::ship::{Controls, Engine, Fleet, Fuel, Pilot, PilotOrder, Player, Programme, Ship, ShipMotion, Turning};
 use super::{SimulationPlugins, sight};
 
 /// Starts `scene` (again): clock at T = 0, ships where the scene puts them, chance from `seed`, a mission at its first goal. `config` is
@@ -82,7 +85,7 @@ pub fn app_of(scene: &Scene, config: &GameConfig, seed: u64) -> App {
 /// How well the autopilot of a crew flies.
 fn skill(crew: Crew) -> Skill {
     match crew {
-        Crew::Naive | Crew::Expert => Skill::default(),
+        Crew::Naive | Crew::Expert | Crew::Hands => Skill::default(),
         Crew::Apprentice => Skill { replan_period: 6.0, horizon: 20.0, reaction_delay: 4.0 },
     }
 }
@@ -90,12 +93,20 @@ fn skill(crew: Crew) -> Skill {
 /// Puts a crew at the controls of the player's ship in a world that was just started.
 pub fn board(world: &mut World, crew: Crew) {
     world.resource_mut::<Skills>().own = skill(crew);
-    if crew == Crew::Naive {
-        let own: Vec<Entity> = world.query_filtered::<Entity, With<Player>>().iter(world).collect();
-        for ship in own {
-            world.entity_mut(ship).insert(Beginner::default());
+    let own: Vec<Entity> = world.query_filtered::<Entity, With<Player>>().iter(world).collect();
+    for ship in own {
+        match crew {
+            Crew::Naive => _ = world.entity_mut(ship).insert(Beginner::default()),
+            Crew::Hands => give_to_hands(world, ship),
+            Crew::Apprentice | Crew::Expert => (),
         }
     }
+}
+
+/// Lets seeded hands fly a ship.
+fn give_to_hands(world: &mut World, ship: Entity) {
+    let seed = world.get_resource_mut::<Chance>().map_or(0, |mut chance| chance.0.random());
+    world.entity_mut(ship).insert(Jerky::from_seed(seed));
 }
 
 /// Arms the player's ship and puts the mission at its first goal.
@@ -141,7 +152,14 @@ fn defaults(config: &GameConfig) -> Defaults {
         enemy_fuel: config.enemy.fuel,
         // Turns are given by the wall second; the simulation wants them by the r_s/c.
         max_rate: config.ship.turn_rate / config.clock.pace,
+        sizes: [config.ship.size, config.enemy.size],
     }
+}
+
+/// Distance of the farthest vertex of a ship from its centre, in r_s; `sizes` are the lengths of hunters and of those who flee.
+pub fn reach_of(spec: &ShipSpec, [hunter, fleeing]: [f64; 2]) -> f64 {
+    let size = if spec.ai == Ai::Flee { fleeing } else { hunter };
+    f64::from(radius_of(model_of(spec))) * size
 }
 
 /// What a scene leaves open, from the game's configuration.
@@ -157,6 +175,8 @@ pub struct Defaults {
     pub enemy_fuel: f64,
     /// The fastest turn, rad per proper r_s/c.
     pub max_rate: f64,
+    /// Lengths of ships that hunt, and of those that flee, in r_s.
+    pub sizes: [f64; 2],
 }
 
 /// Spawns the ships of a scene in its order and inserts the [`Fleet`]. Ships of an earlier scene are despawned.
@@ -170,8 +190,15 @@ pub fn muster(world: &mut World, specs: &[ShipSpec], defaults: &Defaults, time: 
     for (index, spec) in specs.iter().enumerate() {
         let first_other = (0..specs.len()).find(|&other| other != index);
         let target = spec.target.as_ref().map_or(first_other.map(|other| fleet.0[other]), |name| fleet.find(name, specs));
-        if let (true, Some(target)) = (spec.ai != Ai::None, target) {
-            let order = if spec.ai == Ai::Flee { PilotOrder::Escape(target) } else { PilotOrder::Catch(target) };
+        let order = match (spec.ai, target) {
+            (Ai::Flee, Some(target)) => Some(PilotOrder::Escape(target)),
+            (Ai::Pursue, Some(target)) => Some(PilotOrder::Catch(target)),
+            _ => None,
+        };
+        if spec.ai == Ai::Hands {
+            give_to_hands(world, fleet.0[index]);
+        }
+        if let Some(order) = order {
             world.entity_mut(fleet.0[index]).insert((Pilot { order, sees: spec.sees }, Mind::default()));
         }
     }
@@ -181,7 +208,7 @@ pub fn muster(world: &mut World, specs: &[ShipSpec], defaults: &Defaults, time: 
 fn spawn(world: &mut World, index: usize, spec: &ShipSpec, defaults: &Defaults, time: f64) -> Entity {
     let (thrust, tank) = match (spec.player, spec.ai) {
         (true, _) => (defaults.own_thrust, defaults.own_fuel),
-        (false, Ai::None) => (defaults.own_thrust, f64::INFINITY),
+        (false, Ai::None | Ai::Hands) => (defaults.own_thrust, f64::INFINITY),
         (false, Ai::Flee | Ai::Pursue) => (defaults.enemy_thrust, defaults.enemy_fuel),
     };
     let fuel = if spec.fuel.is_finite() { spec.fuel } else { tank };
@@ -190,7 +217,8 @@ fn spawn(world: &mut World, index: usize, spec: &ShipSpec, defaults: &Defaults, 
         ShipMotion(spec.state),
         Controls::default(),
         Fuel { left: fuel, capacity: fuel },
-        Engine { max_thrust: spec.max_thrust.unwrap_or(thrust), max_rate: defaults.max_rate },
+        Engine { max_thrust: spec.max_thrust.unwrap_or(thrust), max_rate: defaults.max_rate, reach: reach_of(spec, defaults.sizes) },
+        Turning::default(),
         Programme(spec.programme.clone()),
         History::new(time, &spec.state),
         Hits::default(),

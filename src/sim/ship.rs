@@ -42,21 +42,51 @@ impl Fuel {
     }
 }
 
+/// The body rates in force, rad per proper r_s/c: those of the last step.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub struct Turning(pub DVec3);
+
+/// The fastest that the farthest vertex of a ship goes round its centre, in c, in the ship's own frame. So fast a body keeps its shape to
+/// 1/γ = 0.97, and no vertex outruns light however the centre moves.
+pub const TIP_SPEED: f64 = 0.25;
+
 /// What the ship can do.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Engine {
     /// The most proper acceleration, any direction, in c²/r_s.
     pub max_thrust: f64,
-    /// The fastest turn, in rad per proper r_s/c.
+    /// The fastest turn that is asked for, in rad per proper r_s/c.
     pub max_rate: f64,
+    /// Distance of the ship's farthest vertex from its centre, in r_s.
+    pub reach: f64,
 }
 
 impl Engine {
-    /// `command` cut to what the engine can do; a command that is not finite is none.
-    pub fn limit(&self, command: &Command) -> Command {
-        let limited = |v: DVec3, max: f64| if v.is_finite() { v.clamp_length_max(max) } else { DVec3::ZERO };
-        Command { thrust: limited(command.thrust, self.max_thrust), rates: limited(command.rates, self.max_rate) }
+    /// The fastest turn, in rad per proper r_s/c: as asked for, and no vertex faster than [`TIP_SPEED`].
+    pub fn fastest_turn(&self) -> f64 {
+        self.max_rate.min(TIP_SPEED / self.reach)
     }
+
+    /// How fast the turn changes at most, in rad per (r_s/c)² of proper time. A ship takes up its fastest turn while light crosses it once,
+    /// from tip to tip: no sooner can one end of a body follow the other.
+    pub fn turn_acceleration(&self) -> f64 {
+        TIP_SPEED / (2.0 * self.reach * self.reach)
+    }
+
+    /// The thrust (body axes, c²/r_s) that the engine gives where `wanted` is asked for; what is not finite is none.
+    pub fn thrust(&self, wanted: DVec3) -> DVec3 {
+        limited(wanted, self.max_thrust)
+    }
+
+    /// The body rates (rad per proper r_s/c) over the coming `span` of proper time (r_s/c), where `wanted` are asked for and `turning` are
+    /// in force; what is not finite is none.
+    pub fn turn(&self, wanted: DVec3, turning: DVec3, span: f64) -> DVec3 {
+        turning + limited(limited(wanted, self.fastest_turn()) - turning, self.turn_acceleration() * span)
+    }
+}
+
+fn limited(v: DVec3, max: f64) -> DVec3 {
+    if v.is_finite() { v.clamp_length_max(max) } else { DVec3::ZERO }
 }
 
 /// The scene's thrust programme, flown instead of the controls while it burns.

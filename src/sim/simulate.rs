@@ -9,10 +9,10 @@ use crate::scene::{ConfigError, GameConfig, Scene, SceneError};
 use crate::spacetime::matter::{ShipState, angular_momentum, energy, has_ended};
 use bevy::prelude::*;
 
-use super::flight::{Flight, fly};
+use super::flight::{Command, Flight, fly};
 use super::hash::StateHash;
 use super::replay::MOST_STEPS;
-use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Programme, Ship, ShipMotion};
+use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Programme, Ship, ShipMotion, Turning};
 use super::{Clock, History, SimEvent, app_of, board, outcome};
 
 /// The header row.
@@ -53,7 +53,7 @@ impl SimulateRequest {
         if scene.ships.is_empty() {
             return Err(SimulateError::Input(format!("scene {}: a simulation needs at least one [[ship]]", scene.name)));
         }
-        let chase = scene.ships.iter().any(|ship| ship.ai != Ai::None);
+        let chase = scene.ships.iter().any(|ship| matches!(ship.ai, Ai::Flee | Ai::Pursue));
         let until = self.until.unwrap_or(if chase { scene.rules(config).time_limit } else { DEFAULT_UNTIL });
         let every = self.every;
         if !(0.0..=1e9).contains(&until) {
@@ -172,7 +172,8 @@ fn ships_at(world: &World, before: &Departures, time: f64) -> Vec<(String, ShipS
         if at_end || ended.is_some_and(|ended| ended.time <= time) {
             return Some((name, state, ended.is_some()));
         }
-        let command = world.get::<Engine>(entity)?.limit(&world.get::<Controls>(entity)?.0);
+        let thrust = world.get::<Engine>(entity)?.thrust(world.get::<Controls>(entity)?.0.thrust);
+        let command = Command { thrust, rates: world.get::<Turning>(entity)?.0 };
         let (end, _) = fly(departure, before.0, time, command, &world.get::<Programme>(entity)?.0, |_| ());
         Some((name, end.state, has_ended(&end.state)))
     };

@@ -52,6 +52,11 @@ impl Follower {
         next
     }
 
+    /// Turns at once, about its own axes.
+    pub fn led(&mut self, turn: DQuat) {
+        self.attitude = self.attitude.map(|before| (before * turn).normalize());
+    }
+
     /// Forgets the past: the next look is straight along the ship.
     pub fn reset(&mut self) {
         self.attitude = None;

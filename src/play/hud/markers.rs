@@ -89,10 +89,10 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Taken, languag
     let Taken { panels, other } = taken;
     let before = panels.len() + other.len();
     let mut board = Board { painter, rect, marked: panels.clone(), taken: [panels, other].concat(), names: Vec::new() };
-    // It says where the ship points, which is not ahead while one looks aside.
-    if !panel.aside {
-        reticle(painter, rect.center());
-        board.takes(rect.center(), 18.0);
+    // Where the ship points: not ahead while one looks aside, or the mouse leads the camera.
+    if let Some(MarkerPosition::On(at)) = panel.nose.map(find) {
+        reticle(painter, point(at));
+        board.takes(point(at), 18.0);
     }
 
     let colours = [OWN, SEEN, ALARM];

@@ -40,8 +40,8 @@ pub struct Panel {
     pub field_of_view: f64,
     /// What the dials say of the target is what is seen of it.
     pub by_light: bool,
-    /// The camera has turned from where the ship points.
-    pub aside: bool,
+    /// Where the ship points, in camera axes.
+    pub nose: Option<glam::DVec3>,
     /// The next gate, in camera axes, and its number from 1.
     pub gate: Option<(glam::DVec3, usize)>,
     /// One's own course, that of the target, and the way of a bolt fired now, if there are bolts.
@@ -81,7 +81,7 @@ pub(super) fn read_panel(
     } else {
         target.and_then(|history| Some(state_of(&history.at(emission_time(&camera, time, history, Order::ALL[0])?))))
     };
-    let thrust = engine.limit(&controls.0).thrust.length();
+    let thrust = engine.thrust(controls.0.thrust).length();
     let resting = static_momentum(state.position).unwrap_or_default();
     let is_own = camera_is_own(&player, now.chase.as_deref().and_then(|chase| chase.outcome));
     let gate = now.mission.as_ref().zip(now.progress.as_ref()).and_then(|(mission, progress)| {
@@ -115,7 +115,7 @@ pub(super) fn read_panel(
         heading: (moving.length() > 0.01).then(|| camera.attitude.conjugate() * moving.normalize()),
         field_of_view: now.session.config.video.fov.to_radians(),
         by_light: !marked_now,
-        aside: player.gaze.aside(),
+        nose: Some(camera.attitude.conjugate() * (state.attitude * glam::DVec3::NEG_Z)),
         gate,
         lines,
         closest: there.filter(|_| marked_now && is_own).and_then(|there| ahead::closest(&camera, &state, &there)),

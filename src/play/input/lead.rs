@@ -14,7 +14,7 @@ pub fn lead_camera(input: PlayerInput, real: Res<Time<Real>>, mut turn: ResMut<M
     /// By the keys, in radians a second, and the logarithm of the distance a second.
     const RATES: (f64, f64) = (1.2, 1.5);
     let (stick, seconds) = (input.stick(), real.delta_secs_f64());
-    let mouse = std::mem::take(&mut turn.0);
+    let mouse = turn.take();
     let keys = DVec2::new(stick.turn.x, stick.turn.y) * (RATES.0 * seconds);
     player.orbit.moved(mouse + keys, (stick.thrust.z * RATES.1 * seconds).exp());
     if input.holds(Action::LookAtTarget) {

@@ -1,16 +1,23 @@
-//! Turns by the mouse.
+//! Turns by the mouse: the camera is led at once, the ship follows as fast as a body turns.
 
 use bevy::prelude::*;
-use glam::DVec2;
+use glam::{DQuat, DVec2, DVec3};
 
 use crate::scene::GameConfig;
-use crate::sim::Hands;
+use crate::sim::{Engine, Hands};
 
-/// Turns asked for by the mouse and not flown yet: pitch (up) and yaw (left), in radians.
+/// Turns asked for by the mouse: pitch (up) and yaw (left), in radians.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
-pub struct MouseTurn(pub DVec2);
+pub struct MouseTurn {
+    /// Not flown yet.
+    pub waiting: DVec2,
+    /// Flown in the last step.
+    flown: DVec2,
+    /// Asked for since the camera was led last.
+    fresh: DVec2,
+}
 
-/// A turn that waits is at most this large, in radians, so that the ship stops soon after the hand.
+/// A turn that waits is at most this large, in radians, so that the ship stops soon after the hand, and points into what is seen.
 const MOST_WAITING: f64 = 0.5;
 
 impl MouseTurn {
@@ -20,20 +27,47 @@ impl MouseTurn {
         let pitch = if controls.invert_y { f64::from(pixels.y) } else { -f64::from(pixels.y) };
         let yaw = if controls.invert_x { f64::from(pixels.x) } else { -f64::from(pixels.x) };
         let turn = DVec2::new(pitch, yaw) * controls.mouse_sensitivity;
-        self.0 = (self.0 + turn).clamp_length_max(MOST_WAITING);
+        let waiting = (self.waiting + turn).clamp_length_max(MOST_WAITING);
+        self.fresh += waiting - self.waiting;
+        self.waiting = waiting;
     }
 
-    /// The deflection (pitch, yaw), each in [−1, 1], that flies as much of the turn as a step can; `most` radians turn in a step at full
-    /// deflection.
-    pub fn pull(&mut self, most: f64) -> DVec2 {
-        if most <= 0.0 {
-            return DVec2::ZERO;
+    /// All of the turn, for what follows the hand at once.
+    pub fn take(&mut self) -> DVec2 {
+        std::mem::take(self).waiting
+    }
+
+    /// How far the ship has still to turn, about its own axes, `share` of the way through the last step: the camera is there already.
+    pub fn lead(&self, share: f64) -> DQuat {
+        DQuat::from_scaled_axis((self.waiting + self.flown * (1.0 - share)).extend(0.0))
+    }
+
+    /// What was asked for since the last call, as a turn about the camera's axes.
+    pub fn led(&mut self) -> DQuat {
+        DQuat::from_scaled_axis(std::mem::take(&mut self.fresh).extend(0.0))
+    }
+
+    /// The turn of the stick (pitch, yaw, roll, each in [−1, 1]) for the coming step: that of the `keys`, and as much of what waits as the
+    /// ship can turn and stop again in time. `turning` are its body rates (rad per proper r_s/c), `span` is the proper time of the step.
+    pub fn pull(&mut self, keys: DVec3, engine: &Engine, turning: DVec3, span: f64) -> DVec3 {
+        let (most, gains) = (engine.fastest_turn(), engine.turn_acceleration() * span);
+        let left = self.waiting.length();
+        self.flown = DVec2::ZERO;
+        // Less than half a step of the stick in one step is none.
+        if span <= 0.0 || left < 0.5 / Hands::FULL * most * span {
+            self.waiting = DVec2::ZERO;
+            return keys;
         }
-        // In the steps that the hands are kept in: what is too little for one waits.
-        let deflection = (self.0 / most).clamp(DVec2::NEG_ONE, DVec2::ONE);
-        let deflection = (deflection * Hands::FULL).round() / Hands::FULL;
-        self.0 -= deflection * most;
-        deflection
+        // From the rate ω it stops after ω + (ω − a) + (ω − 2a) + … = ω²/2a + ω/2 steps' worth of turn, a being what the rate changes by.
+        let steps = left / span;
+        let rate = ((0.25 * gains * gains + 2.0 * gains * steps).sqrt() - 0.5 * gains).min(steps);
+        let wanted = (self.waiting * (rate / (left * most))).clamp(DVec2::NEG_ONE, DVec2::ONE);
+        // In the steps that the hands are kept in.
+        let stick = (keys + wanted.extend(0.0)).clamp(DVec3::NEG_ONE, DVec3::ONE);
+        let stick = (stick * Hands::FULL).round() / Hands::FULL;
+        self.flown = (engine.turn(stick * most, turning, span) - keys * most).truncate() * span;
+        self.waiting = (self.waiting - self.flown).clamp_length_max(MOST_WAITING);
+        stick
     }
 }
 
@@ -41,22 +75,89 @@ impl MouseTurn {
 mod tests {
     use super::*;
 
+    /// The wall time of a step at the usual pace, in seconds, and T of it.
+    const STEP: f64 = 1.0 / 32.0;
+
+    fn engine(pace: f64) -> Engine {
+        Engine { max_thrust: 0.06, max_rate: 1.2 / pace, reach: 0.145 }
+    }
+
+    /// Flies what waits until it stops; the turn so far after each step, in radians.
+    fn flown(turn: &mut MouseTurn, pace: f64, steps: usize) -> Vec<DVec2> {
+        let (engine, mut turning, mut sum) = (engine(pace), DVec3::ZERO, DVec2::ZERO);
+        let step = |_| {
+            let stick = turn.pull(DVec3::ZERO, &engine, turning, STEP);
+            turning = engine.turn(stick * engine.fastest_turn(), turning, STEP);
+            sum += turning.truncate() * STEP;
+            sum
+        };
+        (0..steps).map(step).collect()
+    }
+
     #[test]
-    fn the_mouse_turns_as_far_as_it_went() {
+    fn the_ship_turns_as_far_as_the_mouse_went_and_no_farther() {
         let mut config = GameConfig::default();
-        let mut turn = MouseTurn::default();
-        turn.push(Vec2::new(50.0, -20.0), &config);
-        // Right is a yaw to the right, forward (up the screen) a pitch up; 0.002 rad a pixel.
-        assert!((turn.0 - DVec2::new(0.04, -0.1)).length() < 1e-12);
-        let mut flown = DVec2::ZERO;
-        for _ in 0..20 {
-            flown += turn.pull(0.01) * 0.01;
+        for pace in [0.05, 0.375, 1.5, 3.0] {
+            let mut turn = MouseTurn::default();
+            turn.push(Vec2::new(50.0, -20.0), &config);
+            // Right is a yaw to the right, forward (up the screen) a pitch up; 0.002 rad a pixel.
+            let asked = DVec2::new(0.04, -0.1);
+            assert!((turn.waiting - asked).length() < 1e-12);
+            let way = flown(&mut turn, pace, 64);
+            assert!((way[63] - asked).length() < 3e-4, "{pace}: {}", way[63]);
+            assert!(way.iter().all(|turn| turn.dot(asked) <= asked.length_squared() * 1.02), "{pace}: it swings over");
+            assert_eq!(turn.waiting, DVec2::ZERO);
         }
-        assert!((flown - DVec2::new(0.04, -0.1)).length() < 1e-12, "{flown}");
-        assert_eq!(turn.pull(0.0), DVec2::ZERO);
-        (config.controls.invert_x, config.controls.invert_y) = (true, true);
         let mut other = MouseTurn::default();
+        (config.controls.invert_x, config.controls.invert_y) = (true, true);
         other.push(Vec2::new(50.0, -20.0), &config);
-        assert!((other.0 + DVec2::new(0.04, -0.1)).length() < 1e-12);
+        assert!((other.waiting + DVec2::new(0.04, -0.1)).length() < 1e-12);
+        assert_eq!(other.pull(DVec3::Z, &engine(1.5), DVec3::ZERO, 0.0), DVec3::Z);
+    }
+
+    /// The camera is where the mouse went, whatever of it has been flown.
+    #[test]
+    fn the_camera_is_led_at_once() {
+        let config = GameConfig::default();
+        let mut turn = MouseTurn::default();
+        let (mut seen, mut ship) = (DQuat::IDENTITY, DVec2::ZERO);
+        for k in 0..40 {
+            turn.push(Vec2::new(if k < 20 { 8.0 } else { 0.0 }, 0.0), &config);
+            seen *= turn.led();
+            let yaw = -0.002 * 8.0 * f64::from((k + 1).min(20));
+            assert!(seen.angle_between(DQuat::from_rotation_y(yaw)) < 1e-6, "{k}");
+            ship += flown(&mut turn, 1.5, 1)[0];
+            // Through the whole step, what the ship turns is what the lead loses.
+            let [before, after] = [0.0, 1.0].map(|share| turn.lead(share));
+            assert!((after * DQuat::from_scaled_axis(turn.flown.extend(0.0))).angle_between(before) < 1e-6, "{k}");
+        }
+        assert!(ship.y < -0.1, "{ship}");
+    }
+
+    /// By how much the nose comes after the hand, the mean over a flick of 0.2 rad in a tenth of a second, in milliseconds of wall time.
+    #[test]
+    fn the_nose_lags_behind_the_hand() {
+        let config = GameConfig::default();
+        for (pace, allowed) in [(3.0, 120.0), (1.5, 120.0), (0.75, 250.0), (0.375, 500.0), (0.09375, 2_000.0)] {
+            let (engine, mut turning, mut sum) = (engine(pace), DVec3::ZERO, 0.0);
+            let (mut turn, mut asked, mut behind, mut free) = (MouseTurn::default(), 0.0, 0.0, (0.0, 0.0));
+            let seconds = STEP / pace;
+            for k in 0..2_000 {
+                let time = f64::from(k) * seconds;
+                let hand = 0.2 * ((time + seconds) / 0.1).min(1.0);
+                turn.push(Vec2::new(-((hand - asked) / 0.002) as f32, 0.0), &config);
+                asked = hand;
+                let stick = turn.pull(DVec3::ZERO, &engine, turning, STEP);
+                turning = engine.turn(stick * engine.fastest_turn(), turning, STEP);
+                sum += turning.y * STEP;
+                behind += (hand - sum) * seconds;
+                // Without bounds: the rate that was asked for by the second, at once.
+                free.0 += (hand - free.0).min(1.2 * seconds);
+                free.1 += (hand - free.0) * seconds;
+            }
+            let [bound, free] = [behind / 0.2 * 1e3, free.1 / 0.2 * 1e3];
+            println!("pace {pace}: the nose comes {bound:.0} ms after the mouse, {free:.0} ms if a body could turn at once");
+            assert!(bound < allowed, "{pace}: {bound}");
+        }
     }
 }

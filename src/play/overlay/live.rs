@@ -11,7 +11,7 @@ use crate::scene::config;
 use crate::scene::ship::Ai;
 use crate::sim::hands::HandsRule;
 use crate::sim::replay::ReplayLog;
-use crate::sim::setup::skills;
+use crate::sim::setup::{reach_of, skills};
 use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
 
 use crate::play::choices::Choices;
@@ -124,8 +124,9 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
     let fleet = world.get_resource::<Fleet>().cloned().unwrap_or_default();
     for (&ship, spec) in fleet.0.iter().zip(&session.scene.ships) {
         if let Some(mut engine) = world.get_mut::<Engine>(ship) {
-            let thrust = if spec.ai != Ai::None && !spec.player { config.enemy.thrust } else { config.ship.thrust };
+            let thrust = if matches!(spec.ai, Ai::Flee | Ai::Pursue) && !spec.player { config.enemy.thrust } else { config.ship.thrust };
             engine.max_thrust = spec.max_thrust.unwrap_or(thrust);
+            engine.reach = reach_of(spec, [config.ship.size, config.enemy.size]);
         }
     }
     // The key switches for the chase; a change of the configuration is newer.

@@ -9,7 +9,10 @@ pub mod staging;
 use bevy::prelude::*;
 use bevy::window::PrimaryWindow;
 
+use glam::DQuat;
+
 use crate::play::camera::{CameraView, state_of};
+use crate::play::input::mouse::MouseTurn;
 use crate::play::menus::screens::Screen;
 use crate::play::photo::state::Photo;
 use crate::play::player_state::PlayerState;
@@ -51,7 +54,7 @@ fn point_camera(
     screen: Res<State<Screen>>,
     windows: Query<&Window, With<PrimaryWindow>>,
     (playback, photo): (Option<Res<Playback>>, Option<Res<Photo>>),
-    mut player: ResMut<PlayerState>,
+    (mut player, mut turn): (ResMut<PlayerState>, ResMut<MouseTurn>),
     mut shot: ResMut<CurrentShot>,
 ) {
     if let Some(photo) = photo {
@@ -70,7 +73,10 @@ fn point_camera(
     let sight = sight(&now, *screen.get());
     // All of the player's state goes on, whatever is shown.
     let rigid = player.view == CameraView::Cockpit || video.reduced_motion;
-    let attitude = player.follower.follow(state.attitude, seconds, rigid);
+    // The mouse leads the camera at once, and the ship follows.
+    player.follower.led(turn.led());
+    let lead = if player.autopilot || playback.is_some() { DQuat::IDENTITY } else { turn.lead(now.share()) };
+    let attitude = player.follower.follow((state.attitude * lead).normalize(), seconds, rigid);
     // Who does not fly by hand sees where the flight is to lead.
     let watches = player.autopilot || playback.is_some();
     let sought = now.target().filter(|_| (player.looking || watches) && sight == ScreenContent::Own);

@@ -34,6 +34,11 @@ pub struct Now<'w, 's> {
 }
 
 impl Now<'_, '_> {
+    /// How far the frame is through the last step, 0 to 1.
+    pub fn share(&self) -> f64 {
+        self.fixed.overstep_fraction_f64()
+    }
+
     /// T of the frame, in r_s/c: at most a step before the clock's.
     pub fn time(&self) -> f64 {
         time(&self.clock, &self.fixed)

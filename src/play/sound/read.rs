@@ -17,7 +17,7 @@ use crate::sim::bolts::Hits;
 use crate::sim::hands::Avoiding;
 use crate::sim::pilot::rollout::Point;
 use crate::sim::sight::{direction, emission_time, frequency_ratio};
-use crate::sim::{ActiveMission, Bolts, Chase, ChaseRules, Clock, Controls, Engine, Fleet, Fuel, History, Progress, ShipMotion};
+use crate::sim::{ActiveMission, Bolts, Chase, ChaseRules, Clock, Controls, Engine, Fleet, Fuel, History, Progress, ShipMotion, Turning};
 use crate::spacetime::Observer;
 use crate::spacetime::frames::relative_velocity;
 use crate::spacetime::light::Order;
@@ -93,10 +93,10 @@ impl Ear {
         let step = world.get_resource::<Clock>().map_or(1.0 / 32.0, |clock| clock.step);
         // What it has really done in the last step: a thrust programme counts, an empty tank does not.
         let acceleration = history.thrust(time, step);
-        let command = world.get::<Controls>(ship).map(|controls| engine.limit(&controls.0)).unwrap_or_default();
+        let thrust = world.get::<Controls>(ship).map(|controls| engine.thrust(controls.0.thrust)).unwrap_or_default();
         let burns = acceleration > 0.0;
-        let aside = if burns { share(command.thrust.truncate().length(), engine.max_thrust) } else { 0.0 };
-        let turns = share(command.rates.length(), engine.max_rate);
+        let aside = if burns { share(thrust.truncate().length(), engine.max_thrust) } else { 0.0 };
+        let turns = share(world.get::<Turning>(ship).map_or(0.0, |turning| turning.0.length()), engine.fastest_turn());
         (share(acceleration, engine.max_thrust), aside.max(turns), load(self.scale.gees(acceleration)))
     }
 

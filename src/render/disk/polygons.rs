@@ -139,7 +139,7 @@ impl PolygonPass {
                     triangles: [0, 0, 0, HELD_TWO_SIDED],
                     ..Instance::default()
                 };
-                placed.push(Placed { model: part.range, instance });
+                placed.push(Placed { model: part.range, instance, nodes: Vec::new(), calmed: false });
                 turning.push([rate / TAU, azimuth / TAU].map(|value| value as f32));
             }
         }

@@ -21,6 +21,7 @@ use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::types::placed::THIN;
 use crate::render::gpu::types::{self, Chunk, Counters, Instance, SeenVertex};
 use crate::render::instances::Placed;
+use crate::render::instances::swing::Node;
 use crate::render::method::Method;
 use crate::render::models::Models;
 use crate::render::settings::Capacity;
@@ -133,6 +134,18 @@ fn thin_layout() -> wgpu::VertexBufferLayout<'static> {
     wgpu::VertexBufferLayout { array_stride: types::THIN_BYTES, step_mode: wgpu::VertexStepMode::Vertex, attributes: &ATTRIBUTES }
 }
 
+/// The texels of the table of instances: the instances, then the nodes of each, whose place is told to it.
+fn instance_table<'a>(instances: &mut [Instance], nodes: impl Iterator<Item = &'a [Node]>) -> Vec<[f32; 4]> {
+    let mut first = instances.len() * size_of::<Instance>() / size_of::<[f32; 4]>();
+    let mut behind: Vec<[f32; 4]> = Vec::new();
+    for (instance, nodes) in instances.iter_mut().zip(nodes) {
+        instance.nodes[3] = f32::from_bits(first as u32);
+        behind.extend(nodes.as_flattened());
+        first += 2 * nodes.len();
+    }
+    [bytemuck::cast_slice(instances), &behind].concat()
+}
+
 impl Geometry {
     /// Compiles the stages, for models whose points have such worldlines.
     pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, worldlines: Worldlines) -> Self {
@@ -231,6 +244,7 @@ impl Geometry {
         let all_vertices: u32 = drawn().map(|item| item.model.vertices[1]).sum();
         // What is not finite is left out here; counted with what the shaders leave out.
         let refused = (placed.len() - drawn().count()) as u32;
+        let calmed = placed.iter().filter(|item| item.calmed).count() as u32;
         let (mut vertices, mut edges, mut triangles) = (0, 0, 0);
         for item in drawn() {
             let model = item.model;
@@ -256,7 +270,7 @@ impl Geometry {
         }
         let device = &gpu.device;
         self.capacity = room(budget, vertices, triangles, device.limits().max_storage_buffer_binding_size);
-        let mut replaced = self.instances.write(gpu, &instances);
+        let mut replaced = self.instances.write(gpu, &instance_table(&mut instances, drawn().map(|item| &item.nodes[..])));
         replaced |= self.ground.write(gpu, ground);
         for ((list, buffer), dispatch) in chunks.iter_mut().zip(&mut self.chunks).zip(&mut self.dispatch) {
             let count = list.len() as u32;
@@ -276,7 +290,7 @@ impl Geometry {
             self.make_groups(gpu, models);
         }
         // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
-        let counters = Counters { vertices, model_vertices: vertices, turn: 1, caught: refused, ..Counters::default() };
+        let counters = Counters { vertices, model_vertices: vertices, turn: 1, caught: refused, calmed, ..Counters::default() };
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&counters));
     }
 

@@ -27,9 +27,11 @@ pub(super) use file;
 /// How the points of models go through spacetime.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Worldlines {
-    /// As those of bodies that fly and turn: `shaders/instances/swing.wgsl`.
+    /// As those of bodies whose flight was recorded: `shaders/instances/recorded.wgsl`.
     #[default]
     Bodies,
+    /// As those of bodies that turn evenly: `shaders/instances/even.wgsl`.
+    Even,
     /// As those of rings round the hole: `shaders/instances/ring.wgsl`.
     Rings,
 }
@@ -107,7 +109,8 @@ fn import_path((_, source): File) -> &'static str {
 fn modules(worldlines: Worldlines, method: Method) -> Vec<(&'static str, File)> {
     let [method, held] = method.files();
     let worldlines = match worldlines {
-        Worldlines::Bodies => file!("instances/swing.wgsl"),
+        Worldlines::Bodies => file!("instances/recorded.wgsl"),
+        Worldlines::Even => file!("instances/even.wgsl"),
         Worldlines::Rings => file!("instances/ring.wgsl"),
     };
     let own = |file| (import_path(file), file);
@@ -126,6 +129,7 @@ fn modules(worldlines: Worldlines, method: Method) -> Vec<(&'static str, File)> 
         ("lensrunner::chosen::method", method),
         ("lensrunner::chosen::held", held),
         own(file!("instances/instance.wgsl")),
+        own(file!("instances/swing.wgsl")),
         ("lensrunner::chosen::worldlines", worldlines),
         own(file!("geometry/clip.wgsl")),
         own(file!("geometry/project.wgsl")),

@@ -138,7 +138,7 @@ impl Pass {
     /// The same with another method of projection, where the pass looks rays up.
     /// `inside` is whether the camera may be inside the horizon.
     pub fn module_by(self, method: Method, inside: bool) -> Module {
-        self.module_along(Worldlines::Bodies, method, inside)
+        self.module_along(self.worldlines(), method, inside)
     }
 
     /// The same where the points of models go along other worldlines.
@@ -148,7 +148,16 @@ impl Pass {
 
     /// The shader of the pass with `more` behind its own file: what a test runs of it.
     pub fn module_with(self, more: &str) -> Module {
-        self.composed(Worldlines::Bodies, Method::default(), true, more)
+        self.composed(self.worldlines(), Method::default(), true, more)
+    }
+
+    /// Those of what the pass projects.
+    fn worldlines(self) -> Worldlines {
+        match self {
+            // A planet turns evenly, and its aurora has no nodes at hand.
+            Pass::AuroraProject | Pass::AuroraEnds => Worldlines::Even,
+            _ => Worldlines::Bodies,
+        }
     }
 
     fn composed(self, worldlines: Worldlines, method: Method, inside: bool, more: &str) -> Module {

@@ -54,8 +54,8 @@ pub struct Instance {
     pub momentum: [f32; 4],
     pub shape: [[f32; 4]; 3],
     pub spin: [f32; 4],
-    pub spin_rate: [f32; 4],
-    pub jolt: [f32; 4],
+    pub nodes: [f32; 4],
+    pub drift: [f32; 4],
     pub force: [f32; 4],
     pub turn: [[f32; 4]; 3],
     pub snap: [f32; 4],
@@ -76,8 +76,8 @@ impl Instance {
             self.velocity,
             self.momentum,
             self.spin,
-            self.spin_rate,
-            self.jolt,
+            self.nodes,
+            self.drift,
             self.force,
             self.snap,
         ];
@@ -179,6 +179,7 @@ pub struct Counters {
     pub lost: u32,
     pub outside: u32,
     pub split: u32,
+    pub calmed: u32,
 }
 
 impl Counters {
@@ -193,6 +194,9 @@ impl Counters {
         }
         if self.caught > 0 {
             parts.push(format!("{} results were not finite and are left out", self.caught));
+        }
+        if self.calmed > 0 {
+            parts.push(format!("{} images show a body that turned or sprang faster than any can, slower", self.calmed));
         }
         if self.outside > 0 {
             parts.push(format!("{} triangles lay outside of where their object's image can be and are left out", self.outside));

@@ -8,18 +8,19 @@ pub mod visibility;
 
 use glam::{DMat3, DQuat, DVec3};
 
+use bounds::ImageBounds;
 pub use emission::departure;
 pub use view::View;
 
 use crate::lensing::lookup::OLD;
 use crate::render::gpu::types::Instance;
 use crate::render::gpu::types::placed::{HELD, MINUS, NARROW, THIN, TWO_SIDED};
-use crate::render::instances::swing::Swing;
+use crate::render::instances::swing::{Node, Seen, Swing};
 use crate::render::instances::view::MARGIN;
 use crate::render::models::ModelRange;
 use crate::render::settings::Settings;
 pub use crate::scene::lighting::Illumination;
-use crate::sim::History;
+use crate::sim::{History, Sample};
 use crate::sim::sight::{branch_of, light_path};
 use crate::spacetime::Observer;
 use crate::spacetime::frames::relative_momentum;
@@ -94,12 +95,16 @@ impl DrawnObject<'_> {
 }
 
 /// An object in one order, ready for the GPU.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Placed {
     /// Its model.
     pub model: ModelRange,
     /// The instance as the shader reads it; the renderer fills in the places in its buffers.
     pub instance: Instance,
+    /// Its motion while light crosses it; none for what is held.
+    pub nodes: Vec<Node>,
+    /// Whether it moves otherwise than is drawn: faster than any body does, or by no numbers.
+    pub calmed: bool,
 }
 
 /// The instances of an object in orders 1 to `orders`, seen by `camera` at the clock's `time`. An order in which the centre is not seen
@@ -111,13 +116,26 @@ pub fn instances_of(view: &View, time: f64, object: &DrawnObject, orders: u32) -
     let camera = view.camera;
     let settings = view.settings;
     let image = |order: Order, branch: Branch| {
-        let (mut instance, position, age) = match object.motion {
+        let (emission, position, age) = match object.motion {
             // From inside the horizon higher orders show only what is outside of it.
             Motion::Held { position, .. } if order.number() > 1 && position.length() + object.reach < 1.0 => return None,
-            Motion::Held { position, attitude } => {
-                (held(camera, position, attitude, object), position, if branch == Branch::Minus { f64::from(OLD) } else { 0.0 })
+            Motion::Held { position, .. } => (time, position, if branch == Branch::Minus { f64::from(OLD) } else { 0.0 }),
+            Motion::Flying(history) => {
+                let emission = departure(view, time, history, order).filter(|&emission| history.exists_at(emission))?;
+                (emission, history.at(emission).position, time - emission)
             }
-            Motion::Flying(history) => flying(view, time, history, order, object)?,
+        };
+        let extent = view.extent(position, object.reach, order, age);
+        if view.aspect.is_some_and(|aspect| !extent.may_be_seen(camera, aspect)) {
+            return None;
+        }
+        let width = extent.width;
+        if width < settings.least_width && order.number() > 1 {
+            return None;
+        }
+        let (mut instance, swing, longer) = match object.motion {
+            Motion::Held { attitude, .. } => (held(camera, position, attitude, object), None, 1.0),
+            Motion::Flying(history) => flying(view, history, [emission, time], order, width, object),
         };
         instance.ids = [u32::from(order.number()), object.id, 0, 0];
         instance.axis = by_axis(camera, &instance, position, object.reach);
@@ -133,21 +151,21 @@ pub fn instances_of(view: &View, time: f64, object: &DrawnObject, orders: u32) -
         if branch == Branch::Minus {
             instance.triangles[3] |= MINUS;
         }
-        let extent = view.extent(position, object.reach, order, age);
-        if view.aspect.is_some_and(|aspect| !extent.may_be_seen(camera, aspect)) {
-            return None;
-        }
-        let width = extent.width;
-        if width < settings.least_width && order.number() > 1 {
-            return None;
-        }
         // Near the hole, relative to the object's size, an image is stretched round the ring and shows more detail than its width tells.
         let is_near = order.number() == 1 && position.length() > NEAR_FROM && position.dot(camera.position) > 0.0;
         let model = if object.reach < 0.1 * position.length() { object.model_for(width, is_near, settings) } else { object.model };
         set_strictness(&mut instance, view, width, order);
-        let longer = drawn_out(camera, &instance, position, order, age);
         instance.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
-        Some(Placed { model, instance })
+        let (mut nodes, mut calmed) = swing.map_or((Vec::new(), false), |swing| (swing.nodes, swing.calmed));
+        let has_numbers = instance.is_finite() && nodes.iter().flatten().flatten().all(|x| x.is_finite());
+        let mut model = model;
+        if let (Motion::Flying(history), false) = (object.motion, has_numbers) {
+            // Its stand-in, straight on.
+            (model, calmed) = (object.coarse, true);
+            nodes = swing::at_rest(history.at(emission).attitude);
+            straight_on(&mut instance);
+        }
+        Some(Placed { model, instance, nodes, calmed })
     };
     let folded = match object.motion {
         Motion::Held { position, .. } => camera.radius() < 1.0 && position.length() - object.reach < 1.0 && settings.method.bends(),
@@ -251,28 +269,51 @@ fn held(camera: &Observer, position: DVec3, attitude: DQuat, object: &DrawnObjec
     }
 }
 
-/// Factor by which points of an object may be farther from its centre when their light leaves than at one time. Light leaves a farther
-/// point earlier by the delay's gradient ∇Δ. Meanwhile the object moves with velocity v, which adds v ∇Δ/(1 + v ∇Δ).
-fn drawn_out(camera: &Observer, instance: &Instance, position: DVec3, order: Order, age: f64) -> f64 {
-    let [x, y, z, moves] = instance.velocity.map(f64::from);
-    if moves == 0.0 {
-        return 1.0;
-    }
-    let velocity = DVec3::new(x, y, z);
-    let Some((_, gradient)) = light_path(camera, position, order, branch_of(camera, position, age)) else { return f64::INFINITY };
-    1.0 + ACCELERATES * velocity.length() * gradient.length() / (1.0 + velocity.dot(gradient)).max(1e-6)
+/// How the image of a moving body is drawn out by its motion.
+#[derive(Clone, Copy, Debug)]
+struct DrawnOut {
+    /// Factor by which points of the body may be farther from its centre when their light leaves than at one time.
+    longer: f64,
+    /// So long before and after that of the centre their light leaves at most, in r_s/c.
+    span: f64,
+    /// The length of the light's path, in r_s.
+    path: f64,
 }
 
-/// Factor on that for acceleration while light crosses the object.
-const ACCELERATES: f64 = 1.5;
+impl DrawnOut {
+    /// Of a body with this `reach` (r_s) and `velocity` (dx/dT, c). Light leaves a farther point earlier by the delay's gradient ∇Δ. Meanwhile
+    /// the body moves with velocity v, which adds v ∇Δ/(1 + v ∇Δ). Where there is no such light, as for straight light across the hole,
+    /// anything may be.
+    fn of(camera: &Observer, sample: &Sample, reach: f64, order: Order, age: f64) -> DrawnOut {
+        let branch = branch_of(camera, sample.position, age);
+        let Some((path, gradient)) = light_path(camera, sample.position, order, branch) else {
+            return DrawnOut { longer: f64::INFINITY, span: MOST_SPAN * reach, path: age };
+        };
+        let late = (1.0 + sample.velocity.dot(gradient)).max(1e-6);
+        let span = (ACCELERATES * gradient.length() / late).clamp(1.0, MOST_SPAN) * reach;
+        DrawnOut { longer: 1.0 + ACCELERATES * sample.velocity.length() * gradient.length() / late, span, path }
+    }
+}
 
-/// The instance, the object's position at the emission time, and the age of its light.
-fn flying(view: &View, time: f64, history: &History, order: Order, object: &DrawnObject) -> Option<(Instance, DVec3, f64)> {
+/// Factor on both for acceleration while light crosses the object.
+const ACCELERATES: f64 = 1.5;
+/// The longest time, over that which light takes for the reach, in which a body's motion is followed: next to the horizon it has no end.
+const MOST_SPAN: f64 = 8.0;
+
+/// The instance of a body whose light, seen at the second of these times, left at the first; its motion, and by what factor its points are
+/// drawn out. Its image of this order is `width` pixels wide.
+fn flying(
+    view: &View,
+    history: &History,
+    [emission, time]: [f64; 2],
+    order: Order,
+    width: f64,
+    object: &DrawnObject,
+) -> (Instance, Option<Swing>, f64) {
     let camera = view.camera;
-    let emission = departure(view, time, history, order).filter(|&emission| history.exists_at(emission))?;
     let sample = history.at(emission);
     let turn = DMat3::from_quat(sample.attitude);
-    let swing = Swing::new(history, emission, object.reach);
+    let out = DrawnOut::of(camera, &sample, object.reach, order, time - emission);
     let still = !view.settings.light_delay;
     let p = sample.momentum;
     let momentum = if view.settings.method.bends() { sample.momentum } else { against_static(sample.position, sample.momentum) };
@@ -281,17 +322,36 @@ fn flying(view: &View, time: f64, history: &History, order: Order, object: &Draw
         position: row(sample.position, 0.0),
         velocity: row(sample.velocity, if still { 0.0 } else { object.scale }),
         momentum: row(momentum, gamma(momentum)),
-        shape: columns_and(contraction(p) * turn * object.scale, swing.acceleration),
-        spin: row(swing.spin, p.x),
-        spin_rate: row(swing.spin_rate, p.y),
-        jolt: row(swing.jolt, swing.jolt_after),
-        force: row(swing.force, p.z),
-        turn: columns_and(turn, swing.jerk),
-        snap: row(swing.snap, 0.0),
+        shape: columns(contraction(p) * turn * object.scale),
+        drift: row(p, 0.0),
+        turn: columns(turn),
         light: light_rows(&object.light),
         ..Instance::default()
     };
-    Some((instance, sample.position, time - emission))
+    if still {
+        return (instance, None, out.longer);
+    }
+    let swing = Swing::new(history, emission, object.reach, &Seen { span: out.span, width, pixel: view.pixel * out.path });
+    let [first, step] = swing.times.map(|time| time as f32);
+    let instance = Instance {
+        shape: columns_and(contraction(p) * turn * object.scale, swing.acceleration),
+        spin: row(swing.spin, swing.slack),
+        nodes: [first, step.recip(), (swing.nodes.len() - 1) as f32, 0.0],
+        force: row(swing.force, f64::from(u8::from(swing.strays))),
+        turn: columns_and(turn, swing.jerk),
+        snap: row(swing.snap, 0.0),
+        ..instance
+    };
+    (instance, Some(swing), out.longer)
+}
+
+/// Leaves of an instance's motion what has numbers for sure.
+fn straight_on(instance: &mut Instance) {
+    for row in instance.shape.iter_mut().chain(&mut instance.turn) {
+        row[3] = 0.0;
+    }
+    (instance.spin, instance.force, instance.snap) = ([0.0; 4], [0.0; 4], [0.0, 0.0, 0.0, instance.snap[3]]);
+    (instance.nodes, instance.bounds) = ([0.0, 1.0, 1.0, 0.0], ImageBounds::default());
 }
 
 /// The momentum relative to a static observer, which takes the place of the rain frame where light is drawn straight. Inside the horizon

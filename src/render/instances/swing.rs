@@ -1,16 +1,45 @@
-//! How a moving body moves, turns and contracts while its light crosses it: its centre to fourth order in time, its attitude to second
-//! order in the rotation vector and with one jump of the angular velocity, its contraction by the momentum at each moment. The coefficients
-//! go to the GPU with the instance; [`swing_at`] is the twin of the shader's function.
+//! How a moving body moves, turns and contracts while its light crosses it. Its centre goes a smooth way, to fourth order in time; its
+//! attitude, and where the centre strays from that way, are read from its history at even times, the nodes. They go to the GPU with the
+//! instance; [`swing_at`] is the twin of the shader's functions.
 
-use glam::{DVec3, Vec3};
+use glam::{DQuat, DVec3, Quat, Vec3, Vec4};
 
 use crate::sim::History;
 use crate::sim::history::{Sample, rotation};
+use crate::spacetime::matter::gamma;
+use crate::spacetime::metric::river_speed;
 
 use crate::render::gpu::types::Instance;
 
-/// Coefficients about the emission time T₀ of the centre.
+/// A node as the GPU reads it: the attitude (x, y, z, w, body to rain axes); what to add to the smooth way, in r_s.
+pub type Node = [[f32; 4]; 2];
+
+/// The fewest and the most times between the nodes of an image.
+const INTERVALS: (f64, f64) = (4.0, 32.0);
+/// So many times between nodes, times the root of the image's width in pixels, show a body that takes up its turn as quickly as a ship can
+/// to a tenth of a pixel: with n times over its length 2R the turn is off by (c/4)/2R² · (2R/n)²/8 at most, and half the width is R.
+const PER_ROOT_PIXEL: f64 = 0.6;
+/// What a centre may stray from its smooth way without its nodes being read, in pixels.
+const STRAYS: f64 = 0.02;
+/// A centre that strays by more than this share of the body's reach has no smooth way.
+const WILD: f64 = 0.25;
+/// The fastest turn that is drawn: its farthest vertex against its centre, in c of the slice. A ship's is 1/4. Beyond 1 a point would be seen
+/// at several times at once.
+const FASTEST: f64 = 0.5;
+
+/// What is known of the image that a body is drawn in.
 #[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    /// Its light leaves so long before and after that of the centre, at most, in r_s/c.
+    pub span: f64,
+    /// Width, in pixels.
+    pub width: f64,
+    /// What a pixel spans at the body, in r_s.
+    pub pixel: f64,
+}
+
+/// How a body moves about the emission time T₀ of its centre.
+#[derive(Clone, Debug)]
 pub struct Swing {
     /// d²x/dT² of the centre, in c²/r_s.
     pub acceleration: DVec3,
@@ -18,79 +47,172 @@ pub struct Swing {
     pub jerk: DVec3,
     /// d⁴x/dT⁴ of the centre, in c⁴/r_s³.
     pub snap: DVec3,
-    /// Angular velocity against the attitude at T₀, rain axes, in c/r_s.
-    pub spin: DVec3,
-    /// Its rate, in (c/r_s)².
-    pub spin_rate: DVec3,
-    /// A jump of the angular velocity, where a pilot begins or ends a turn, in c/r_s.
-    pub jolt: DVec3,
-    /// When it happens, after T₀, in r_s/c.
-    pub jolt_after: f64,
     /// dp/dT, p being the rain-frame momentum per mass, in c²/r_s.
     pub force: DVec3,
+    /// Mean angular velocity, rain axes, in c/r_s.
+    pub spin: DVec3,
+    /// By how much the sine of light against a surface may be off what that turn tells.
+    pub slack: f64,
+    /// Time of the first node after T₀, and between two nodes, in r_s/c.
+    pub times: [f64; 2],
+    /// The nodes, at even times.
+    pub nodes: Vec<Node>,
+    /// Whether the centre strays from its smooth way.
+    pub strays: bool,
+    /// Whether the body turned or sprang faster than is drawn.
+    pub calmed: bool,
 }
 
 impl Swing {
-    /// Fitted to positions and attitudes at T₀ − `reach`, T₀ and T₀ + `reach` (r_s/c), and to positions halfway: in that time light crosses
-    /// a body of this radius. The fourth order is needed for what falls inside the horizon beside the camera: without it a ship of 0.16 r_s
-    /// at r = 0.6 is off by 10⁻⁴ r_s, a pixel at a distance of a thirtieth of r_s. A Taylor series about T₀ would be worst at the ends,
-    /// where it matters. It would also need derivatives where the turning of a ship jumps; one pixel in a hundred would be off by two.
-    pub fn new(history: &History, emission: f64, reach: f64) -> Swing {
+    /// From a body of this `reach` (r_s) and its history.
+    ///
+    /// The way is fitted to positions at T₀ − `reach`, T₀ and T₀ + `reach`, and to positions halfway. The fourth order is needed for what
+    /// falls inside the horizon beside the camera: without it a ship of 0.16 r_s at r = 0.6 is off by 10⁻⁴ r_s, a pixel at a distance of a
+    /// thirtieth of r_s. A Taylor series about T₀ would be worst at the ends, where it matters.
+    ///
+    /// Nodes are at those of the history, or at every second or third, so that between two of them the turn is as even as it was flown.
+    pub fn new(history: &History, emission: f64, reach: f64, seen: &Seen) -> Swing {
         // For bodies smaller than a thousandth of r_s differences would be lost in rounding, and no motion is visible.
         let w = reach.max(1e-3);
-        let [earlier, now, later] = [emission - w, emission, emission + w].map(|t| history.at(t));
-        // Light takes longer to cross a body that approaches or recedes.
-        let (after, jolt) = history.jolt(emission - 2.0 * w, emission + 2.0 * w).unwrap_or((emission, DVec3::ZERO));
-        let jolt_after = after - emission;
-        let [back, on] =
-            [(earlier, -w), (later, w)].map(|(sample, s)| rotation(now.attitude, sample.attitude) - jolt * jolted(s, jolt_after));
+        let now = history.at(emission);
+        let [earlier, half_back, half_on, later] = [-w, -0.5 * w, 0.5 * w, w].map(|s| history.at(emission + s));
         let moved = |sample: &Sample, s: f64| sample.position - now.position - now.velocity * s;
         let (moved_back, moved_on) = (moved(&earlier, -w), moved(&later, w));
-        let [half_back, half_on] = [-0.5 * w, 0.5 * w].map(|s| moved(&history.at(emission + s), s));
         // The even part in s is a s² + k s⁴/12.
-        let (even, even_half) = (moved_on + moved_back, half_on + half_back);
-        Swing {
+        let (even, even_half) = (moved_on + moved_back, moved(&half_back, -0.5 * w) + moved(&half_on, 0.5 * w));
+        let force = (later.momentum - earlier.momentum) / (2.0 * w);
+        // The contraction of the body changes its points' places by at most reach |dp/dT| / γ² a time.
+        let most = FASTEST * gamma(now.momentum).powi(2) / reach;
+        let mut swing = Swing {
             acceleration: (even_half * 16.0 - even) / (3.0 * w * w),
             jerk: (moved_on - moved_back) * (3.0 / (w * w * w)),
             snap: (even - even_half * 4.0) * (16.0 / (w * w * w * w)),
-            spin: (on - back) / (2.0 * w),
-            spin_rate: (on + back) / (w * w),
-            jolt,
-            jolt_after,
-            force: (later.momentum - earlier.momentum) / (2.0 * w),
+            force: force.clamp_length_max(most),
+            spin: DVec3::ZERO,
+            slack: 0.0,
+            times: [0.0; 2],
+            nodes: Vec::new(),
+            strays: false,
+            calmed: force.length() > most,
+        };
+        swing.take_nodes(history, emission, &now, reach, seen);
+        swing
+    }
+
+    fn take_nodes(&mut self, history: &History, emission: f64, now: &Sample, reach: f64, seen: &Seen) {
+        let most = (PER_ROOT_PIXEL * seen.width.max(1.0).sqrt()).clamp(INTERVALS.0, INTERVALS.1);
+        let (anchor, apart) = history.node_at(emission);
+        let (coarse, fine) = (2.0 * seen.span / INTERVALS.0, 2.0 * seen.span / most);
+        // Where nodes are far apart nothing happened between them.
+        let step = if apart < coarse { apart * (fine / apart).floor().max(1.0) } else { fine };
+        let first = ((emission - seen.span - anchor) / step).floor();
+        let last = ((emission + seen.span - anchor) / step).ceil().max(first + 1.0);
+        let times: Vec<f64> = (0..=(last - first) as usize).map(|k| anchor + (first + k as f64) * step).collect();
+        let mut samples: Vec<Sample> = times.iter().map(|time| history.at(*time)).collect();
+        // From the middle outwards, so that the body is where and as it is at T₀.
+        let middle = times.partition_point(|time| *time <= emission).clamp(1, times.len() - 1);
+        for k in middle..samples.len() {
+            self.calmed |= calm(samples[k - 1], &mut samples[k], reach, step);
         }
+        for k in (0..middle - 1).rev() {
+            self.calmed |= calm(samples[k + 1], &mut samples[k], reach, step);
+        }
+        let way = |swing: &Swing, s: f64| {
+            now.position + (now.velocity + (swing.acceleration + (swing.jerk + swing.snap * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s
+        };
+        let asides = |swing: &Swing| -> Vec<DVec3> {
+            samples.iter().zip(&times).map(|(sample, time)| sample.position - way(swing, time - emission)).collect()
+        };
+        let farthest = |asides: &[DVec3]| asides.iter().map(|aside| aside.length()).fold(0.0, f64::max);
+        let mut beside = asides(self);
+        if farthest(&beside) > WILD * reach {
+            (self.acceleration, self.jerk, self.snap) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+            beside = asides(self);
+        }
+        self.strays = farthest(&beside) > STRAYS * seen.pixel;
+        let turns: Vec<DVec3> = samples.iter().map(|sample| rotation(now.attitude, sample.attitude)).collect();
+        let ends = [turns[0], turns[turns.len() - 1]];
+        self.spin = (ends[1] - ends[0]) / (times[times.len() - 1] - times[0]);
+        let uneven = turns.iter().zip(&times).map(|(turn, time)| turn.distance(self.spin * (time - emission))).fold(0.0, f64::max);
+        let fastest = samples.windows(2).map(|pair| rotation(pair[0].attitude, pair[1].attitude).length()).fold(0.0, f64::max) / step;
+        self.slack = uneven + fastest * reach;
+        self.times = [times[0] - emission, step];
+        let mut before = now.attitude;
+        self.nodes = (samples.iter().zip(beside))
+            .map(|(sample, aside)| {
+                before = if sample.attitude.dot(before) < 0.0 { -sample.attitude } else { sample.attitude };
+                let [x, y, z] = aside.as_vec3().to_array();
+                [before.as_quat().to_array(), [x, y, z, 0.0]]
+            })
+            .collect();
     }
 }
 
-/// Time for which the jump at `after` has acted at `s`, less that at s = 0: so there is no turn at 0.
-fn jolted(s: f64, after: f64) -> f64 {
-    (s - after).max(0.0) - (-after).max(0.0)
+/// Keeps a sample `step` (r_s/c) from another one to what is drawn: the centre no faster than anything can be on the slice, the turn no
+/// faster than [`FASTEST`]. Whether it was farther.
+fn calm(beside: Sample, sample: &mut Sample, reach: f64, step: f64) -> bool {
+    let deepest = beside.position.length().min(sample.position.length()).max(1e-3);
+    let way = sample.position - beside.position;
+    // Rounding, and the way between two nodes, which is a cubic.
+    let most_way = 1.1 * (1.0 + river_speed(deepest)) * step;
+    let angle = rotation(beside.attitude, sample.attitude).length();
+    let most_angle = FASTEST * step / reach;
+    if way.length() > most_way {
+        sample.position = beside.position + way * (most_way / way.length());
+    }
+    if angle > most_angle {
+        let towards = if sample.attitude.dot(beside.attitude) < 0.0 { -sample.attitude } else { sample.attitude };
+        sample.attitude = beside.attitude.slerp(towards, most_angle / angle);
+    }
+    way.length() > most_way || angle > most_angle
 }
 
-/// The largest turn that is used, in radians. The polynomials below are right to 1.3 % there and to 1e-7 at half a radian.
-const FARTHEST_TURN: f32 = 2.0;
+/// A point of a body some time after T₀: its offset from the centre at T₀ (r_s, rain axes, on the slice), dx/dT (c), and the attitude.
+pub type Swung = (Vec3, Vec3, Quat);
 
-/// Offset of a point of a body (model's unit, body axes) from the body's centre at T₀, `s` r_s/c later, on the slice, in r_s and rain axes.
-/// Twin of the function of the same name in shaders/instances/swing.wgsl.
-pub fn swing_at(instance: &Instance, body: Vec3, s: f32) -> Vec3 {
+/// Where a point of a body (model's unit, body axes) is `s` r_s/c after T₀. Twin of `swing_at` in shaders/instances/recorded.wgsl.
+pub fn swing_at(instance: &Instance, nodes: &[Node], body: Vec3, s: f32) -> Swung {
     let xyz = |row: [f32; 4]| Vec3::new(row[0], row[1], row[2]);
-    let columns = |m: [[f32; 4]; 3]| xyz(m[0]) * body.x + xyz(m[1]) * body.y + xyz(m[2]) * body.z;
-    let last = |m: [[f32; 4]; 3]| Vec3::new(m[0][3], m[1][3], m[2][3]);
     let scale = instance.velocity[3];
     if scale == 0.0 {
-        return columns(instance.shape);
+        let [x, y, z] = instance.shape.map(xyz);
+        return (x * body.x + y * body.y + z * body.z, Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 0.0, 0.0));
     }
-    let jolted = (s - instance.jolt[3]).max(0.0) - (-instance.jolt[3]).max(0.0);
-    let turned = (xyz(instance.spin) + xyz(instance.spin_rate) * (0.5 * s)) * s + xyz(instance.jolt) * jolted;
-    let turned = turned * (FARTHEST_TURN / turned.length().max(FARTHEST_TURN));
-    let q = turned.length_squared();
-    let rest = columns(instance.turn) * scale;
-    // Rodrigues: sin θ / θ and (1 − cos θ) / θ² as polynomials in θ².
-    let once = turned.cross(rest);
-    let rest = rest + once * (1.0 - q * (1.0 / 6.0 - q / 120.0)) + turned.cross(once) * (0.5 - q * (1.0 / 24.0 - q / 720.0));
-    let p = Vec3::new(instance.spin[3], instance.spin_rate[3], instance.force[3]) + xyz(instance.force) * s;
+    let [first, per_time, last, _] = instance.nodes;
+    let at = (s - first) * per_time;
+    let x = at.clamp(0.0, last);
+    let index = x.floor().min(last - 1.0);
+    let (share, inside) = (x - index, if at == x { 1.0 } else { 0.0 });
+    let [[turn_a, aside_a], [turn_b, aside_b]] = [nodes[index as usize], nodes[index as usize + 1]];
+    let [turn_a, turn_b] = [turn_a, turn_b].map(Vec4::from_array);
+    let (mean, change) = (turn_a.lerp(turn_b, share), turn_b - turn_a);
+    let q = Quat::from_vec4(mean.normalize());
+    let rest = q * (body * scale);
+    let rate = change.truncate() * mean.w - mean.truncate() * change.w - change.truncate().cross(mean.truncate());
+    let turning = (rate * (2.0 / mean.length_squared())).cross(rest) * (per_time * inside);
+    let mut swung = carried(instance, rest, turning, s);
+    if instance.force[3] != 0.0 {
+        let [a, b] = [aside_a, aside_b].map(xyz);
+        swung.0 += a.lerp(b, share);
+        swung.1 += (b - a) * (per_time * inside);
+    }
+    (swung.0, swung.1, q)
+}
+
+/// Twin of `carried` in shaders/instances/swing.wgsl: offset and velocity.
+fn carried(instance: &Instance, rest: Vec3, turning: Vec3, s: f32) -> (Vec3, Vec3) {
+    let xyz = |row: [f32; 4]| Vec3::new(row[0], row[1], row[2]);
+    let last = |m: [[f32; 4]; 3]| Vec3::new(m[0][3], m[1][3], m[2][3]);
+    let (velocity, acceleration, jerk, snap) = (xyz(instance.velocity), last(instance.shape), last(instance.turn), xyz(instance.snap));
+    let way = (velocity + (acceleration + (jerk + snap * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s;
+    let velocity = velocity + (acceleration + (jerk + snap * (s / 3.0)) * (0.5 * s)) * s;
+    let p = xyz(instance.drift) + xyz(instance.force) * s;
     let gamma = (1.0 + p.length_squared()).sqrt();
-    let contracted = rest - p * (p.dot(rest) / (gamma * (1.0 + gamma)));
-    let jerk = last(instance.turn) + xyz(instance.snap) * (0.25 * s);
-    contracted + (xyz(instance.velocity) + (last(instance.shape) + jerk * (s / 3.0)) * (0.5 * s)) * s
+    let contracted = |v: Vec3| v - p * (p.dot(v) / (gamma * (1.0 + gamma)));
+    (way + contracted(rest), velocity + contracted(turning))
+}
+
+/// A body that goes straight on from a sample of its history without turning: for one whose own motion has no numbers.
+pub fn at_rest(attitude: DQuat) -> Vec<Node> {
+    vec![[attitude.as_quat().to_array(), [0.0; 4]]; 2]
 }

@@ -60,7 +60,7 @@ pub fn fly_as_beginner(
         let stick = stick(pilot.order, ahead);
         let mut command = assisted(state, &stick, engine, Reference::Orbit, &assist).command;
         if let Some(ahead) = ahead {
-            command.rates = turn_nose(ahead, engine.max_rate);
+            command.rates = turn_nose(ahead, engine.fastest_turn());
         }
         controls.0 = command;
         if let (Some(mut trigger), Some(ahead), PilotOrder::Hit(_)) = (trigger, ahead, pilot.order) {

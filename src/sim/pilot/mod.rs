@@ -3,10 +3,12 @@
 //! Far away, sampling model-predictive control ([`mod@plan`]); where a meeting can be flown, zero-effort-miss shooting
 //! ([`mod@rendezvous`]); bolts are aimed by shooting too ([`mod@aim`]). The hole is avoided in all. A pilot knows the other ship as it was a
 //! reaction delay ago, or by its light, and expects it to go on as it did. Difficulty is thrust, fuel, replanning period, horizon and
-//! reaction delay, nothing else. [`beginner`] flies as somebody does who plays for the first time.
+//! reaction delay, nothing else. [`beginner`] flies as somebody does who plays for the first time, and
+//! [`jerky`] as hands do that throw the ship about.
 
 pub mod aim;
 pub mod beginner;
+pub mod jerky;
 pub mod orders;
 pub mod plan;
 pub mod rendezvous;
@@ -30,6 +32,7 @@ use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Manual, Pilot, PilotOrde
 use super::sight::{apparition, emission_time};
 use super::{ActiveMission, ChaseRules, SimSet};
 use beginner::Beginner;
+use jerky::Jerky;
 use plan::{Aim, Task, plan};
 use rendezvous::{intercept, rendezvous};
 use rollout::{PlannedBurn, Point};
@@ -111,7 +114,7 @@ impl Plugin for EnemyAiPlugin {
         app.init_resource::<Skills>()
             .init_resource::<Chance>()
             .init_resource::<ChaseRules>()
-            .add_systems(FixedUpdate, (orders::give_orders, beginner::fly_as_beginner, fly_by_pilot).chain().in_set(SimSet::Ai));
+            .add_systems(FixedUpdate, (orders::give_orders, beginner::fly_as_beginner, jerky::fly_by_jerks, fly_by_pilot).chain().in_set(SimSet::Ai));
     }
 }
 
@@ -129,7 +132,7 @@ type Piloted<'a> = (
     (Option<&'a Gun>, Option<&'a mut Trigger>),
     Has<Player>,
 );
-type ByPilot = (Without<Ended>, Without<Manual>, Without<Beginner>);
+type ByPilot = (Without<Ended>, Without<Manual>, Without<Beginner>, Without<Jerky>);
 
 /// Every pilot, in scene order, sets the controls of its ship for the coming step.
 pub fn fly_by_pilot(
@@ -162,13 +165,13 @@ pub fn fly_by_pilot(
                 continue;
             }
             PilotOrder::Turn => {
-                controls.0 = Command { thrust: DVec3::ZERO, rates: DVec3::Y * engine.max_rate };
+                controls.0 = Command { thrust: DVec3::ZERO, rates: DVec3::Y * engine.fastest_turn() };
                 continue;
             }
             PilotOrder::Face(_) => {
                 controls.0 = other
                     .and_then(|(history, _)| seat.image(history))
-                    .map_or_else(Command::default, |ahead| Command { thrust: DVec3::ZERO, rates: turn_nose(ahead, engine.max_rate) });
+                    .map_or_else(Command::default, |ahead| Command { thrust: DVec3::ZERO, rates: turn_nose(ahead, engine.fastest_turn()) });
                 continue;
             }
             PilotOrder::Catch(_) | PilotOrder::Hit(_) | PilotOrder::Escape(_) | PilotOrder::Pass(_) | PilotOrder::Keep(_) => (),
@@ -199,7 +202,7 @@ pub fn fly_by_pilot(
         controls.0 = command(&motion.0, wish, engine);
         if let Some((direction, tolerance)) = mind.aim {
             let ahead = motion.0.attitude.conjugate() * direction;
-            controls.0.rates = turn_nose(ahead, engine.max_rate);
+            controls.0.rates = turn_nose(ahead, engine.fastest_turn());
             if let Some(mut trigger) = trigger {
                 trigger.pulled = ahead.angle_between(DVec3::NEG_Z) < tolerance;
             }
@@ -297,7 +300,7 @@ fn command(state: &ShipState, wish: DVec3, engine: &Engine) -> Command {
     let body: DQuat = state.attitude.conjugate();
     let thrust = body * wish;
     let rates = match wish.try_normalize() {
-        Some(direction) => turn_nose(body * direction, engine.max_rate),
+        Some(direction) => turn_nose(body * direction, engine.fastest_turn()),
         None => DVec3::ZERO,
     };
     Command { thrust, rates }

@@ -58,8 +58,8 @@ fn structs_have_one_layout_in_both_languages() {
         ),
         (
             "gpu::types::Instance",
-            fields!(Instance: offset, axis, position, velocity, momentum, shape ["shape_x", "shape_y", "shape_z"], spin, spin_rate,
-            jolt, force, turn ["turn_x", "turn_y", "turn_z"], snap, light ["light_red", "light_green", "light_blue"],
+            fields!(Instance: offset, axis, position, velocity, momentum, shape ["shape_x", "shape_y", "shape_z"], spin, nodes,
+            drift, force, turn ["turn_x", "turn_y", "turn_z"], snap, light ["light_red", "light_green", "light_blue"],
             bounds ["bound_high", "bound_low", "bound_look"], ids, vertices, triangles),
         ),
         ("gpu::types::ModelVertex", fields!(ModelVertex: position, normal, info)),
@@ -68,7 +68,8 @@ fn structs_have_one_layout_in_both_languages() {
         ("gpu::types::SeenVertex", fields!(SeenVertex: apparent, normal, leaving, surface, fan)),
         (
             "geometry::bindings::Counters",
-            fields!(Counters: vertices, indices, work, thin, pieces, turn, coarse, cut, caught, model_vertices, lost, outside, split),
+            fields!(Counters: vertices, indices, work, thin, pieces, turn, coarse, cut, caught, model_vertices, lost, outside, split,
+            calmed),
         ),
         ("gpu::types::Material", fields!(Material: base, emissive, surface)),
         ("shading::aurora_light::GroundLight", fields!(GroundLight: dipole ["dipole_x", "dipole_y", "dipole_z"], colour, map, planet)),

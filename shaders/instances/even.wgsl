@@ -1,0 +1,31 @@
+#define_import_path lensrunner::instances::even
+
+// Worldlines of the points of a body that turns evenly, as a planet does; used in place of instances/recorded.wgsl.
+
+#import lensrunner::gpu::types::Instance
+#import lensrunner::instances::instance::{normal_of, shaped}
+#import lensrunner::instances::swing::{carried, Swing}
+
+/// The largest turn that is used, in radians: the polynomials of `swing_at` are right to 1.3 % there and to 1e-7 at half a radian.
+const FARTHEST_TURN: f32 = 2.0;
+
+/// The body point `s` after the emission time T₀ of the centre.
+fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> Swing {
+    let scale = instance.velocity.w;
+    if scale == 0.0 {
+        return Swing(shaped(instance, body), vec3<f32>(0.0), vec4<f32>(0.0));
+    }
+    let turn = instance.spin.xyz * s;
+    let turned = turn * (FARTHEST_TURN / max(length(turn), FARTHEST_TURN));
+    let q = dot(turned, turned);
+    let straight = normal_of(instance, body) * scale;
+    // Rodrigues: sin θ / θ and (1 − cos θ) / θ² as polynomials in θ².
+    let once = cross(turned, straight);
+    let rest = straight + once * (1.0 - q * (1.0 / 6.0 - q / 120.0)) + cross(turned, once) * (0.5 - q * (1.0 / 24.0 - q / 720.0));
+    return carried(instance, rest, cross(instance.spin.xyz, rest), s);
+}
+
+/// First guess of the emission time of a point, after T₀: nearly that of the centre.
+fn first_guess(instance: Instance, body: vec3<f32>) -> f32 {
+    return 0.0;
+}

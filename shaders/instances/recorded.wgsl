@@ -1,0 +1,88 @@
+#define_import_path lensrunner::instances::recorded
+
+// Worldlines of the points of a body that was flown: its attitude, and where its centre was beside a smooth way, are read from nodes of what
+// was recorded. They lie behind the instances in their table, two texels each: the attitude; what to add to the smooth way (xyz).
+
+#import lensrunner::gpu::types::Instance
+#import lensrunner::instances::instance::{instance_row, shaped}
+#import lensrunner::instances::swing::{carried, Swing, turned_by}
+
+/// Texels of a node.
+const NODE_TEXELS: u32 = 2u;
+
+/// The interval between two nodes that a time lies in, and the share of the way through it.
+struct NodePlace {
+    index: u32,
+    share: f32,
+    /// 1 within the nodes, 0 before the first and after the last: there nothing turns.
+    inside: f32,
+}
+
+fn node_place(instance: Instance, s: f32) -> NodePlace {
+    let last = instance.nodes.z;
+    let at = (s - instance.nodes.x) * instance.nodes.y;
+    let x = clamp(at, 0.0, last);
+    let index = min(floor(x), last - 1.0);
+    return NodePlace(u32(index), x - index, select(0.0, 1.0, at == x));
+}
+
+/// The body point `s` after T₀, between two nodes: their attitudes, and how far they are beside the smooth way. Twin of the function of the
+/// same name in src/render/instances/swing.rs.
+fn swing_between(instance: Instance, body: vec3<f32>, s: f32, place: NodePlace, turns: mat2x4<f32>, asides: mat2x3<f32>) -> Swing {
+    let mean = mix(turns[0], turns[1], place.share);
+    let length_squared = dot(mean, mean);
+    let q = mean * inverseSqrt(length_squared);
+    let rest = turned_by(q, body * instance.velocity.w);
+    // Twice the vector part of q' q*, q' being the rate of the quaternion.
+    let change = turns[1] - turns[0];
+    let rate = 2.0 * (change.xyz * mean.w - mean.xyz * change.w - cross(change.xyz, mean.xyz)) / length_squared;
+    let per_time = instance.nodes.y * place.inside;
+    var swing = carried(instance, rest, cross(rate, rest) * per_time, s);
+    swing.offset += mix(asides[0], asides[1], place.share);
+    swing.velocity += (asides[1] - asides[0]) * per_time;
+    swing.attitude = q;
+    return swing;
+}
+
+/// The body point `s` after the emission time T₀ of the centre.
+fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> Swing {
+    if instance.velocity.w == 0.0 {
+        return Swing(shaped(instance, body), vec3<f32>(0.0), vec4<f32>(0.0));
+    }
+    let place = node_place(instance, s);
+    let first = bitcast<u32>(instance.nodes.w) + NODE_TEXELS * place.index;
+    let turns = mat2x4<f32>(instance_row(first), instance_row(first + NODE_TEXELS));
+    var asides = mat2x3<f32>();
+    // Most bodies keep to the smooth way.
+    if instance.force.w != 0.0 {
+        asides = mat2x3<f32>(instance_row(first + 1u).xyz, instance_row(first + NODE_TEXELS + 1u).xyz);
+    }
+    return swing_between(instance, body, s, place, turns, asides);
+}
+
+/// First guess of the emission time of a point, after T₀: nearly that of the centre.
+fn first_guess(instance: Instance, body: vec3<f32>) -> f32 {
+    return 0.0;
+}
+
+/// A direction in which light leaves the body (rest frame, rain axes), turned back to the attitude at T₀; `delay` is the light's path.
+fn before_turning(instance: Instance, leaving: vec3<f32>, delay: f32) -> vec3<f32> {
+    return leaving - cross(instance.spin.xyz * (instance.offset.w - delay), leaving);
+}
+
+/// By how much the sine of light against a surface may be off what `before_turning` tells: for uneven turns, and for the surface's own speed.
+fn turning_slack(instance: Instance) -> f32 {
+    return instance.spin.w;
+}
+
+/// Whether an edge inside the surface may be an outline of its image.
+const MAY_FOLD: bool = true;
+
+/// Whether the surface ends at an edge of the model, which has one triangle (`alone`) and runs from `a` to `b`.
+fn is_rim(instance: Instance, alone: bool, a: vec3<f32>, b: vec3<f32>) -> bool {
+    return alone;
+}
+
+/// Whether slivers are not split any more from some depth on. Not here: pixels beside them would be missed, where a neighbour has more
+/// segments.
+const KEEPS_SLIVERS: bool = false;
