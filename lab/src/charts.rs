@@ -12,7 +12,7 @@ use lensrunner_lab::dial::{self, DialRequest};
 use lensrunner_lab::projection::ChartError;
 use lensrunner_lab::projection::race::Race;
 use lensrunner_lab::{
-    aurora, aurora_race, bvh, chart, drivers, flight, frame_times, projection, soak, tessellation, thin_disk, window_rates,
+    aurora, aurora_race, bvh, chart, drivers, flight, frame_times, hands_frames, projection, soak, tessellation, thin_disk, window_rates,
 };
 
 use crate::fail;
@@ -32,6 +32,7 @@ pub enum ChartCommand {
     Tessellation(ChartTessellationArgs),
     Quarry(ChartQuarryArgs),
     Soak(ChartSoakArgs),
+    Hands(ChartHandsArgs),
     Steps(ChartStepsArgs),
     Overlay(ChartOverlayArgs),
     Window(ChartWindowArgs),
@@ -158,6 +159,23 @@ pub struct ChartSoakArgs {
     /// Frames.
     #[arg(long, value_name = "N", default_value_t = 10_000, allow_negative_numbers = true, value_parser = whole::<u64>(10, 10_000_000))]
     frames: u64,
+    /// The folder for the table.
+    #[arg(short, value_name = "DIR", default_value = chart::DEFAULT_FOLDER)]
+    output: PathBuf,
+}
+
+/// Whether any frame stands still while hands throw the ship about, at five paces from 0.05 to 3: a table.
+#[derive(Args)]
+pub struct ChartHandsArgs {
+    /// Scenes or missions.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', default_value = "02-first-pursuit,04-the-ghost,06-the-long-shot,09-two-of-them")]
+    scenes: Vec<String>,
+    /// Frames of all flights together.
+    #[arg(long, value_name = "N", default_value_t = 20_000, allow_negative_numbers = true, value_parser = whole::<usize>(1, 10_000_000))]
+    frames: usize,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = lensrunner::render::shot::size)]
+    size: [u32; 2],
     /// The folder for the table.
     #[arg(short, value_name = "DIR", default_value = chart::DEFAULT_FOLDER)]
     output: PathBuf,
@@ -376,6 +394,10 @@ pub fn run(chart: ChartCommand) -> ExitCode {
         ChartCommand::Soak(args) => {
             let output = chart::Output { folder: args.output, redraw: false };
             finish_chart(soak::run(&soak::SoakRequest { output, steps: args.steps, frames: args.frames }, &mut io::stdout().lock()))
+        }
+        ChartCommand::Hands(ChartHandsArgs { scenes, frames, size, output }) => {
+            let output = chart::Output { folder: output, redraw: false };
+            finish_chart(hands_frames::run(&hands_frames::HandsRequest { output, scenes, frames, size }, &mut io::stdout().lock()))
         }
         ChartCommand::Overlay(args) => match lensrunner_lab::overlay_cost::run(args.frames as usize, &mut io::stdout().lock()) {
             Ok(()) => ExitCode::SUCCESS,

@@ -29,6 +29,7 @@ pub mod products;
 pub mod projection;
 pub mod quarry;
 mod say;
+pub mod hands_frames;
 pub mod soak;
 pub mod stability;
 pub mod steps;

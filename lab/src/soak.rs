@@ -14,6 +14,7 @@ use lensrunner::render::quality::prices::Prices;
 use lensrunner::render::shot::{Moment, surroundings};
 use lensrunner::render::stage::{Stage, settings};
 use lensrunner::render::{DeviceError, Gpu, Renderer};
+use lensrunner::scene::crew::Crew;
 use lensrunner::scene::{self, GameConfig, SceneError};
 use lensrunner::sim::{History, SimEvent, app_of};
 use thiserror::Error;
@@ -122,10 +123,15 @@ fn show(gpu: &Gpu, frames: u64, sheet: &mut Sheet, out: &mut impl Write) -> Resu
     for round in 0.. {
         let scene = scene::load(SCENES[round % SCENES.len()])?;
         let stage = Stage::new(&mut renderer, &scene, &config);
-        let moment = Moment::new(&scene, &config, AT, 1);
-        let camera = stage.camera(moment.time(), &moment.ships());
+        // By hands, who throw the ship about.
+        let mut moment = Moment::with_crew(&scene, &config, 1, Crew::Hands);
+        moment.advance((AT / config.clock.step).round() as u64);
         let rungs = ladder(Prices::shipped(), class_of(&scene));
         for _ in 0..EACH {
+            if scene.name == FLIGHT {
+                moment.advance(1);
+            }
+            let camera = stage.camera(moment.time(), &moment.ships());
             let settings = turned(&settings(&config), &rungs[done as usize % rungs.len()].steps);
             draw(gpu, &mut renderer, &stage.frame(camera, SIZE, moment.time(), &moment.histories(), None, &settings), &view)?;
             done += 1;

@@ -9,6 +9,7 @@ use lensrunner::judge::case::{self, Case};
 use lensrunner::judge::picture::DEFAULT_PACKET;
 use lensrunner::picture_file::moment::{moment_of, read_moment};
 use lensrunner::scene;
+use lensrunner::scene::crew::Crew;
 use lensrunner::sim::restored::Restored;
 use lensrunner::sim::snapshot::Snapshot;
 use lensrunner_lab::compare::{command, flight, judged::Terms, random};
@@ -50,6 +51,10 @@ pub struct CompareArgs {
     /// hole. Or at the one moment --at. Moments that fail are left in the folder -o as scenes of their own.
     #[arg(long, value_name = "NAME|FILE", conflicts_with_all = ["samples", "table"])]
     flight: Option<String>,
+    /// Who flies the player's ship in --flight: naive, apprentice, expert, or hands. Hands throw it about, at five paces by turns, and are
+    /// looked at as a player looks: from behind, from the cockpit, from all around, and from beside.
+    #[arg(long, value_name = "NAME", default_value_t, requires = "flight")]
+    pilot: Crew,
     /// How many chases --flight flies.
     #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = whole::<u64>(1, 1_000_000))]
     seeds: u64,
@@ -123,7 +128,9 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out/flight"));
         let (size, config, collected) = (args.size.unwrap_or(random::case_file::SIZE), args.config.clone(), args.collect.clone());
         let (seeds, first, moments, at) = (args.seeds, args.first, args.moments, args.at);
-        let request = flight::command::FlightRequest { scene, seeds, first, moments, at, size, terms, config, output, reduce, collected };
+        let pilot = args.pilot;
+        let request =
+            flight::command::FlightRequest { scene, pilot, seeds, first, moments, at, size, terms, config, output, reduce, collected };
         flight::command::run(&request, &draw, &|case: &Case| contestant.show(case)).map(failed)
     } else if let Some(from) = &moment_of(args.scene.as_deref(), args.from.as_deref()) {
         if args.at.is_some() || args.config.is_some() || args.table.is_some() {

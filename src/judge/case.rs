@@ -18,6 +18,7 @@ use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneEr
 use crate::sim::history::MotionBounds;
 use crate::sim::restored::Restored;
 use crate::sim::{History, Moment};
+use crate::spacetime::Observer;
 use crate::spacetime::orbit::orbital_frequency;
 
 /// The local error of each step of a ray unless asked otherwise, relative to r.
@@ -207,6 +208,15 @@ impl Case {
         let histories = known_back(moment.histories().into_iter().cloned().collect(), time, &camera);
         let assembly = scene.assemble(&config);
         Case { scene, config, assembly, time, histories, hidden: None, camera, ended }
+    }
+
+    /// The same with bolts, seen by a camera of one's own in which the ship `hidden` is not drawn.
+    pub fn seen(scene: Scene, config: GameConfig, moment: &Moment, observer: Observer, hidden: Option<usize>, size: [u32; 2]) -> Case {
+        let (time, camera) = (moment.time(), PixelCamera { observer, size });
+        let ships = moment.histories().into_iter().cloned();
+        let histories = ships.chain([History::nobody()]).chain(moment.bolts().into_iter().cloned()).collect();
+        let assembly = scene.assemble(&config);
+        Case { scene, config, assembly, time, histories: known_back(histories, time, &camera), hidden, camera, ended: Ok(()) }
     }
 
     /// The moment of a picture, seen by its camera in a picture of `size` pixels.

@@ -2,6 +2,7 @@
 
 use bevy::prelude::*;
 
+use crate::scene::crew::Crew;
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::matter::ShipState;
 
@@ -9,6 +10,15 @@ use super::replay::{Playback, Replay};
 use super::run::state_hash;
 use super::ship::Player;
 use super::{Bolts, Clock, Fleet, History, ShipMotion, app_of, board, outcome};
+
+/// Makes a ship that of the player, where none is yet.
+fn mark_player(world: &mut World, ship: Option<usize>) {
+    let is_marked = world.query_filtered::<(), With<Player>>().iter(world).next().is_some();
+    let ship = ship.filter(|_| !is_marked).and_then(|ship| world.resource::<Fleet>().0.get(ship).copied());
+    if let Some(ship) = ship {
+        world.entity_mut(ship).insert(Player);
+    }
+}
 
 /// A scene with its ships at a time T.
 pub struct Moment {
@@ -26,16 +36,21 @@ impl Moment {
         moment
     }
 
+    /// The scene at T = 0 with `crew` at the controls of the player's ship, or of the first where the scene marks none.
+    pub fn with_crew(scene: &Scene, config: &GameConfig, seed: u64, crew: Crew) -> Moment {
+        let mut moment = Moment::new(scene, config, 0.0, seed);
+        let world = moment.world.world_mut();
+        mark_player(world, Some(0));
+        board(world, crew);
+        moment
+    }
+
     /// Flies a flight again up to its last step. `config` is that of its difficulty; `player` is the ship that hands fly where the scene
     /// marks none.
     pub fn flown(scene: &Scene, config: &GameConfig, flight: &Replay, player: Option<usize>) -> Moment {
         let mut app = app_of(scene, config, flight.seed);
         let world = app.world_mut();
-        let is_marked = world.query_filtered::<(), With<Player>>().iter(world).next().is_some();
-        let ship = player.filter(|_| !is_marked).and_then(|ship| world.resource::<Fleet>().0.get(ship).copied());
-        if let Some(ship) = ship {
-            world.entity_mut(ship).insert(Player);
-        }
+        mark_player(world, player);
         world.insert_resource(Playback::of(flight));
         board(world, flight.crew);
         let mut moment = Moment { world: app, names: scene.ships.iter().map(|ship| ship.name.clone()).collect() };

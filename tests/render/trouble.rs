@@ -76,7 +76,7 @@ fn what_is_not_finite_is_counted_and_not_drawn() {
         let mut bad = good.clone();
         bad[0].instance.ids[1] = 2;
         bad[0].instance.shape[1][2] = wrong;
-        let both = bad.iter().chain(&good).copied().collect();
+        let both = bad.iter().chain(&good).cloned().collect();
         let picture = bench.renderer.picture(&frame(both, settings), true).unwrap();
         assert!(picture.layers.iter().all(|texel| texel[0] != 2.0), "it was drawn");
         assert!(picture.layers.iter().any(|texel| texel[0] == 1.0), "its neighbour was not");
@@ -178,7 +178,7 @@ fn the_settings_of_geometry_do_what_they_say() {
     };
     let count = |settings: Settings| images(settings).len();
     // The ball is 2.3 pixels wide in the first order.
-    let first = |settings: Settings| images(settings)[0];
+    let first = |settings: Settings| images(settings)[0].clone();
     assert_eq!(count(Settings { least_width: 0.0, ..quiet() }), 3);
     assert_eq!(count(Settings { least_width: 10.0, ..quiet() }), 1);
     assert_eq!(first(Settings { coarse_below: 6.0, ..quiet() }).model.triangles, stand_in.triangles);

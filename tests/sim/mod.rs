@@ -4,3 +4,4 @@ pub mod chase;
 mod history;
 mod missions;
 mod simulate;
+mod turning;

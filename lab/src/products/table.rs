@@ -305,6 +305,16 @@ pub const PRODUCTS: &[Product] = &[
         seconds: [0.0, 0.0],
     },
     Product {
+        name: "hands",
+        runs: &[lab("chart hands -o {}")],
+        quick: &[lab("chart hands --scenes 06-the-long-shot --frames 20 --size 160x90 -o {}")],
+        folder: "lab",
+        files: &["hands.csv"],
+        grows: false,
+        sources: &[DRAWN, FLOWN, &["lab/src/hands_frames.rs", "lab/src/compare/flight"]],
+        seconds: [1200.0, 30.0],
+    },
+    Product {
         name: "soak",
         runs: &[lab("chart soak -o {}")],
         quick: &[lab("chart soak --steps 2000 --frames 20 -o {}")],

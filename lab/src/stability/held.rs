@@ -103,8 +103,8 @@ pub const HELD: [Held; 15] = [
         test: ["tests/render/trouble.rs", "what_is_not_finite_is_counted_and_not_drawn"],
         fault: fault(
             "src/render/geometry/mod.rs",
-            "caught: refused, ..Counters::default()",
-            "caught: refused.min(0), ..Counters::default()",
+            "caught: refused, calmed, ..Counters::default()",
+            "caught: refused.min(0), calmed, ..Counters::default()",
         ),
     },
     Held {

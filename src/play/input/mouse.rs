@@ -54,7 +54,7 @@ impl MouseTurn {
         let left = self.waiting.length();
         self.flown = DVec2::ZERO;
         // Less than half a step of the stick in one step is none.
-        if span <= 0.0 || left < 0.5 / Hands::FULL * most * span {
+        if span <= 0.0 || self.waiting.abs().max_element() < 0.5 / Hands::FULL * most * span {
             self.waiting = DVec2::ZERO;
             return keys;
         }

@@ -162,6 +162,8 @@ impl Pass {
 
     fn composed(self, worldlines: Worldlines, method: Method, inside: bool, more: &str) -> Module {
         let (path, source) = self.file();
+        // What is always a planet's is so whatever else is drawn.
+        let worldlines = if self.worldlines() == Worldlines::Even { Worldlines::Even } else { worldlines };
         let values = Values { inside: inside && self.may_be_inside(), data_group: if self.draws_data() { 2 } else { 1 } };
         let mut libraries = LIBRARIES.lock().unwrap_or_else(PoisonError::into_inner);
         let composed = match libraries.entry((worldlines, method)) {

@@ -15,10 +15,10 @@ use crate::render::gpu::types::Instance;
 pub type Node = [[f32; 4]; 2];
 
 /// The fewest and the most times between the nodes of an image.
-const INTERVALS: (f64, f64) = (4.0, 32.0);
+const INTERVALS: (f64, f64) = (4.0, 48.0);
 /// So many times between nodes, times the root of the image's width in pixels, show a body that takes up its turn as quickly as a ship can
-/// to a tenth of a pixel: with n times over its length 2R the turn is off by (c/4)/2R² · (2R/n)²/8 at most, and half the width is R.
-const PER_ROOT_PIXEL: f64 = 0.6;
+/// to a hundredth of a pixel: with n times over its length 2R the turn is off by (c/4)/2R² · (2R/n)²/8 at most, and half the width is R.
+const PER_ROOT_PIXEL: f64 = 2.0;
 /// What a centre may stray from its smooth way without its nodes being read, in pixels.
 const STRAYS: f64 = 0.02;
 /// A centre that strays by more than this share of the body's reach has no smooth way.

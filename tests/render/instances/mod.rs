@@ -1,4 +1,5 @@
 //! Tests of `src/render/instances/`.
 
 mod bounds;
+mod hostile;
 mod swing;

@@ -1,10 +1,12 @@
-//! `lensrunner-lab compare --flight`: seeded chases flown by the autopilot, judged at many moments.
+//! `lensrunner-lab compare --flight`: seeded chases flown by the autopilot or by seeded hands, judged at many moments.
 
 use crate::say::say;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use super::eye::{Eye, eye};
 use super::freeze::freeze;
+use super::hands::{self, Tally};
 use super::jump::{Jump, jumps};
 use super::moments::{choose, survey};
 use crate::compare::Shown;
@@ -16,6 +18,7 @@ use crate::compare::random::collect;
 use crate::compare::random::command::{Keep, bar, check_terms, configuration, leave, make_folder, one, tell};
 use crate::compare::random::outcome::{Outcome, Row, summary};
 use lensrunner::judge::case::{Case, TraceError};
+use lensrunner::scene::crew::Crew;
 use lensrunner::scene::{self, GameConfig, Scene};
 use lensrunner::sim::Moment;
 
@@ -27,6 +30,8 @@ pub type Shower<'a> = dyn Fn(&Case) -> Result<Vec<Shown>, String> + 'a;
 pub struct FlightRequest {
     /// The scene's name or file.
     pub scene: String,
+    /// Who flies the player's ship. Hands fly at five paces by turns, and their flights are seen as a player looks.
+    pub pilot: Crew,
     /// How many chases.
     pub seeds: u64,
     /// The seed of the first; those of the others follow it.
@@ -79,12 +84,18 @@ pub fn run(request: &FlightRequest, contestant: &Contestant, shower: &Shower) ->
     make_folder(&request.output)?;
     let count = request.at.map_or(request.moments, |_| 1) as u64;
     let bar = bar(request.seeds * count);
-    let mut flight = Flight { request, scene: &scene, text: &text, config: &config, contestant, shower, rows: Vec::new() };
+    let mut flight =
+        Flight { request, scene: &scene, text: &text, config: config.clone(), contestant, shower, rows: Vec::new(), tally: Tally::default() };
+    let by_hands = request.pilot == Crew::Hands;
     for seed in request.first..request.first.saturating_add(request.seeds) {
         bar.set_message(format!("seed {seed}: flying"));
         let step = config.clock.step;
+        if by_hands {
+            flight.config.clock.pace = hands::pace(seed);
+        }
         let chosen = match request.at {
             Some(at) => vec![(at / step).round() as u64],
+            None if by_hands => hands::choose(&scene, &flight.config, seed, scene.rules(&config).time_limit, request.moments),
             None => choose(&survey(&scene, &config, seed, scene.rules(&config).time_limit), request.moments, step, seed),
         };
         // What was flown short has fewer.
@@ -94,6 +105,10 @@ pub fn run(request: &FlightRequest, contestant: &Contestant, shower: &Shower) ->
     }
     bar.finish_and_clear();
     say(summary(&flight.rows).trim_end());
+    if by_hands {
+        say(flight.tally.text().trim_end());
+        flight.tally.save(&request.output.join("hands.csv"))?;
+    }
     if let Some(csv) = &request.collected {
         let seeds = format!("{} to {}", request.first, request.first + (request.seeds - 1));
         collect::add(csv, &scene.name, &seeds, &request.terms, &flight.rows)?;
@@ -105,22 +120,25 @@ struct Flight<'a> {
     request: &'a FlightRequest,
     scene: &'a Scene,
     text: &'a str,
-    config: &'a GameConfig,
+    config: GameConfig,
     contestant: &'a Contestant<'a>,
     shower: &'a Shower<'a>,
     rows: Vec<Row>,
+    tally: Tally,
 }
 
 /// A frame of the game.
 struct Still {
     case: Case,
+    /// From where it is seen in a flight by hands.
+    eye: Option<Eye>,
     shown: Result<Vec<Shown>, String>,
 }
 
 impl Flight<'_> {
     /// Flies one chase and judges it after these steps.
     fn judge(&mut self, seed: u64, steps: &[u64], done: &mut dyn FnMut(&Row)) -> Result<(), CompareError> {
-        let mut moment = Moment::new(self.scene, self.config, 0.0, seed);
+        let mut moment = Moment::with_crew(self.scene, &self.config, seed, self.request.pilot);
         let mut now = 0;
         // Of the frame at the step `now`, if it was drawn.
         let mut kept: Option<Still> = None;
@@ -133,12 +151,12 @@ impl Flight<'_> {
             }
             let earlier = match kept.take() {
                 Some(still) if now == before => Some(still),
-                _ if now == before && step > 0 => Some(self.still(&moment)),
+                _ if now == before && step > 0 => self.still(&moment, seed, step),
                 _ => None,
             };
             moment.advance(step - now);
             now = step;
-            let still = self.still(&moment);
+            let Some(still) = self.still(&moment, seed, step) else { continue };
             if still.case.check().is_err() {
                 break;
             }
@@ -150,18 +168,25 @@ impl Flight<'_> {
         Ok(())
     }
 
-    fn still(&self, moment: &Moment) -> Still {
-        let case = Case::of(self.scene.clone(), self.config.clone(), moment, self.request.size);
+    /// A frame of the moment `number`; none where the camera of hands is nowhere.
+    fn still(&self, moment: &Moment, seed: u64, number: u64) -> Option<Still> {
+        let (scene, config, size) = (self.scene.clone(), self.config.clone(), self.request.size);
+        let (case, eye) = if self.request.pilot == Crew::Hands {
+            let (eye, camera, hidden) = eye(self.scene, &self.config, moment, seed, number)?;
+            (Case::seen(scene, config, moment, camera, hidden, size), Some(eye))
+        } else {
+            (Case::of(scene, config, moment, size), None)
+        };
         let shown = (self.shower)(&case);
-        Still { case, shown }
+        Some(Still { case, eye, shown })
     }
 
     /// Judges a moment, and the one before it where an image jumps between them.
-    fn moment(&self, seed: u64, earlier: Option<&Still>, still: &Still, started: Instant) -> Result<Row, CompareError> {
+    fn moment(&mut self, seed: u64, earlier: Option<&Still>, still: &Still, started: Instant) -> Result<Row, CompareError> {
         let name = format!("{}-seed-{seed}-T-{}", self.scene.name, still.case.time);
         let row = |outcome: Outcome| Row {
             name: name.clone(),
-            corner: "flight".into(),
+            corner: still.eye.map_or("flight", Eye::name).into(),
             size: self.request.size,
             outcome,
             seconds: started.elapsed().as_secs_f64(),
@@ -181,6 +206,9 @@ impl Flight<'_> {
         {
             // The picture after the jump is right; is the one before it?
             judged.faults.extend(self.jump(earlier, still, jump));
+        }
+        if let Some(eye) = still.eye {
+            self.tally.add(self.scene, self.config.clock.pace, eye, &judged);
         }
         let outcome = Outcome::of(&judged);
         if main_fault(&judged.faults).is_some() {
@@ -219,14 +247,14 @@ impl Flight<'_> {
     fn leave(&self, name: &str, seed: u64, case: &Case, judged: &Judged) -> Result<(), CompareError> {
         let [width, height] = self.request.size;
         let command = format!(
-            "lensrunner-lab compare --flight {} --seeds 1 --first {seed} --at {} --size {width}x{height}",
-            self.request.scene, case.time
+            "lensrunner-lab compare --flight {} --pilot {} --seeds 1 --first {seed} --at {} --size {width}x{height}",
+            self.request.scene, self.request.pilot, case.time
         );
         let notes = vec![format!("T = {} of the flight of {} with seed {seed}: {command}", case.time, self.scene.name)];
         let Some(text) = freeze(self.text, case) else { return Ok(()) };
         let file = CaseFile { notes, text, at: 0.0, size: self.request.size };
         let keep = Keep { folder: &self.request.output, reduce: self.request.reduce };
-        let frozen = one(name, "flight", &file, self.config, &self.request.terms, Some(keep), self.contestant)?;
+        let frozen = one(name, "flight", &file, &self.config, &self.request.terms, Some(keep), self.contestant)?;
         if !frozen.failed() {
             // The ships have coasted to here in the file, and not in the flight.
             let mut file = file;

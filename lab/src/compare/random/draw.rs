@@ -38,11 +38,29 @@ pub fn draw(seed: u64, number: u64) -> Drawn {
     let config = GameConfig::default();
     loop {
         let drawn = attempt(&mut chance);
-        let scene = Scene::from_toml(Path::new("drawn.toml"), &drawn.text);
-        if scene.is_ok_and(|scene| place::is_fair(&scene, &config, drawn.at)) {
-            return drawn;
+        let is_fair = |drawn: &Drawn| {
+            let scene = Scene::from_toml(Path::new("drawn.toml"), &drawn.text);
+            scene.is_ok_and(|scene| place::is_fair(&scene, &config, drawn.at))
+        };
+        if is_fair(&drawn) {
+            return by_hands(&drawn, seed, number).filter(is_fair).unwrap_or(drawn);
         }
     }
+}
+
+/// Keeps the chance of hands apart from that of scenes: any number does.
+const HANDS: u64 = 0x4a17_d5ee;
+
+/// The same with its ships flown by hands, for one case of four that has any; None for all others.
+fn by_hands(drawn: &Drawn, seed: u64, number: u64) -> Option<Drawn> {
+    let mut chance = chance(seed ^ HANDS, number);
+    // A programme is flown by nobody.
+    if !drawn.text.contains("[[ship]]") || drawn.text.contains("thrust = [") || !chance.random_bool(0.25) {
+        return None;
+    }
+    let text = drawn.text.replace("[[ship]]\n", "[[ship]]\nai = \"hands\"\n");
+    // They have flown for some time when they are looked at.
+    Some(Drawn { text, at: rounded(chance.random_range(1.0..8.0)), ..drawn.clone() })
 }
 
 fn attempt(chance: &mut StdRng) -> Drawn {

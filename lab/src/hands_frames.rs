@@ -1,0 +1,175 @@
+//! Whether any frame stands still, or shows what has no numbers, while hands throw the ship about: missions at several paces, a frame each 1/30 s
+//! of wall time: `lensrunner-lab chart hands`.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use glam::DQuat;
+use thiserror::Error;
+
+use crate::chart::{Output, Provenance, Sheet, SheetError};
+use crate::compare::flight::eye::own_ship;
+use crate::compare::flight::hands::PACES;
+use crate::frame_times::whole::draw;
+use lensrunner::play::camera::{CameraView, on_ship, state_of};
+use lensrunner::render::gpu::readback::PictureError;
+use lensrunner::render::gpu::targets::target;
+use lensrunner::render::settings::Settings;
+use lensrunner::render::shot::surroundings;
+use lensrunner::render::stage::{Stage, settings};
+use lensrunner::render::{DeviceError, Gpu, Renderer};
+use lensrunner::scene::crew::Crew;
+use lensrunner::scene::mission::Difficulty;
+use lensrunner::scene::{self, GameConfig, SceneError};
+use lensrunner::sim::{History, Moment};
+
+/// What to draw.
+#[derive(Clone, Debug)]
+pub struct HandsRequest {
+    /// Where the sheet goes.
+    pub output: Output,
+    /// Scenes or missions.
+    pub scenes: Vec<String>,
+    /// Frames of all flights together.
+    pub frames: usize,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+}
+
+/// Why there is no answer.
+#[derive(Debug, Error)]
+pub enum HandsError {
+    /// A scene is wrong.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// There is nothing to draw with.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// No picture.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    /// The sheet.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
+}
+
+/// Columns of the sheet: times of a frame; the longest over the median, with its T; the most vertices and pieces of a frame over their
+/// medians; results without numbers, and images drawn more slowly than they move, in all frames.
+pub const COLUMNS: [&str; 11] =
+    ["scene", "pace", "frames", "median_ms", "longest_ms", "ratio", "T", "vertices_ratio", "coarse", "not_finite", "calmed"];
+
+/// Wall time between two frames, in seconds.
+const FRAME: f64 = 1.0 / 30.0;
+/// T at which the frames of a flight begin, in r_s/c: the light of what the hands did has come by then.
+const FROM: f64 = 2.5;
+/// Frames before the first that is timed: what is compiled and allocated is by then.
+const WARMING: usize = 3;
+/// Frames until the camera is another one.
+const LOOKS: usize = 40;
+
+/// Draws, writes `hands.csv` and says what came out.
+pub fn run(request: &HandsRequest, out: &mut impl Write) -> Result<Vec<PathBuf>, HandsError> {
+    let gpu = Gpu::headless()?;
+    let mut sheet = Sheet::new(&COLUMNS);
+    sheet.notes = Provenance::now(&gpu.adapter_name()).notes();
+    let flights = request.scenes.len() * PACES.len();
+    for name in &request.scenes {
+        for (seed, pace) in PACES.into_iter().enumerate() {
+            let row = fly(&gpu, name, pace, seed as u64, request.frames.div_ceil(flights), request.size)?;
+            _ = writeln!(out, "{}", row.join("  "));
+            sheet.push(row);
+        }
+    }
+    let worst = sheet.rows.iter().map(|row| sheet.number(row, "ratio")).fold(0.0, f64::max);
+    let failed: f64 = sheet.rows.iter().map(|row| sheet.number(row, "not_finite")).sum();
+    _ = writeln!(out, "The longest frame takes {worst:.2} times the median of its flight; {failed} results have no numbers.");
+    let path = request.output.csv("hands");
+    sheet.save(&path)?;
+    Ok(vec![path])
+}
+
+/// A frame that was drawn.
+struct Drawn {
+    time: f64,
+    milliseconds: f64,
+    vertices: f64,
+}
+
+/// The row of one flight; where it is decided, the next begins.
+fn fly(gpu: &Gpu, name: &str, pace: f64, seed: u64, frames: usize, size: [u32; 2]) -> Result<Vec<String>, HandsError> {
+    let scene = scene::load(name)?;
+    let mut config = GameConfig::default();
+    config.clock.pace = pace;
+    let config = scene.config(&config, Difficulty::Easy);
+    let format = wgpu::TextureFormat::Rgba8UnormSrgb;
+    let (_, view) = target(&gpu.device, "hands", size, format);
+    let mut renderer = Renderer::new(gpu, &surroundings(), format, size);
+    let stage = Stage::new(&mut renderer, &scene, &config).watched();
+    let own = own_ship(&scene);
+    let mut drawn: Vec<Drawn> = Vec::new();
+    let (mut coarse, mut not_finite, mut calmed, mut done) = (0, 0, 0, 0);
+    for flight in 0.. {
+        let mut moment = Moment::with_crew(&scene, &config, 5 * flight + seed, Crew::Hands);
+        let mut time = FROM;
+        while done < frames + WARMING {
+            while moment.time() < time + config.clock.step && !moment.is_decided() {
+                moment.advance(1);
+            }
+            if moment.is_decided() {
+                break;
+            }
+            let nobody = History::nobody();
+            let histories: Vec<&History> = moment.histories().into_iter().chain([&nobody]).chain(moment.bolts()).collect();
+            let state = state_of(&histories[own].at(time));
+            let around = DQuat::from_rotation_y(0.05 * done as f64) * DQuat::from_rotation_x(0.4);
+            let (kind, attitude) = match done / LOOKS % 3 {
+                0 => (CameraView::ThirdPerson, state.attitude),
+                1 => (CameraView::Cockpit, state.attitude),
+                _ => (CameraView::ThirdPerson, state.attitude * around),
+            };
+            let camera = on_ship(&state, kind, attitude, config.ship.size, config.video.fov.to_radians());
+            let hidden = (kind == CameraView::Cockpit).then_some(own);
+            let wanted = Settings { own_ship: Some(own), ..settings(&config) };
+            let began = Instant::now();
+            let frame = stage.frame(camera, size, time, &histories, hidden, &wanted);
+            draw(gpu, &mut renderer, &frame, &view)?;
+            let milliseconds = began.elapsed().as_secs_f64() * 1e3;
+            let counters = renderer.counters()?;
+            done += 1;
+            if done > WARMING {
+                drawn.push(Drawn { time, milliseconds, vertices: f64::from(counters.vertices + counters.split) });
+                coarse += counters.coarse;
+                not_finite += counters.caught;
+                calmed += counters.calmed;
+            }
+            time += pace * FRAME;
+        }
+        if done >= frames + WARMING {
+            break;
+        }
+    }
+    let longest = drawn.iter().max_by(|a, b| a.milliseconds.total_cmp(&b.milliseconds));
+    let (longest, at) = longest.map_or((f64::NAN, f64::NAN), |frame| (frame.milliseconds, frame.time));
+    let median_time = median(drawn.iter().map(|frame| frame.milliseconds));
+    let vertices = drawn.iter().map(|frame| frame.vertices).fold(0.0, f64::max) / median(drawn.iter().map(|frame| frame.vertices));
+    Ok(vec![
+        name.to_owned(),
+        pace.to_string(),
+        drawn.len().to_string(),
+        format!("{median_time:.2}"),
+        format!("{longest:.2}"),
+        format!("{:.2}", longest / median_time),
+        format!("{at:.4}"),
+        format!("{vertices:.2}"),
+        coarse.to_string(),
+        not_finite.to_string(),
+        calmed.to_string(),
+    ])
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
