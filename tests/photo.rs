@@ -152,8 +152,14 @@ fn frames_of_the_demonstration_are_made_again() {
     let mut flight = Replay::begin(&session.scene, &session.config, session.difficulty, Crew::Expert, session.seed);
     let hands = |k: u64| Hands { thrust: [0, 0, -100], turn: [0, k as i8, 0], assist: true, ..Hands::default() };
     flight.records = (0..40).map(|k| Record { tick: 16 * k, hands: hands(k) }).collect();
-    let request =
-        DemonstrationRequest { frames: FRAMES, size: SIZE, folder: folder.path().to_path_buf(), replay: Some(flight), sound: None };
+    let request = DemonstrationRequest {
+        frames: FRAMES,
+        size: SIZE,
+        folder: folder.path().to_path_buf(),
+        crew: Crew::Expert,
+        replay: Some(flight),
+        sound: None,
+    };
     let report = fly(&GPU, &session, &request).unwrap();
     let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, SIZE);
     let (texture, view) = target(&GPU.device, "again", SIZE, wgpu::TextureFormat::Rgba8UnormSrgb);

@@ -168,7 +168,12 @@ pub struct ChartSoakArgs {
 #[derive(Args)]
 pub struct ChartHandsArgs {
     /// Scenes or missions.
-    #[arg(long, value_name = "NAME,…", value_delimiter = ',', default_value = "02-first-pursuit,04-the-ghost,06-the-long-shot,09-two-of-them")]
+    #[arg(
+        long,
+        value_name = "NAME,…",
+        value_delimiter = ',',
+        default_value = "02-first-pursuit,04-the-ghost,06-the-long-shot,09-two-of-them"
+    )]
     scenes: Vec<String>,
     /// Frames of all flights together.
     #[arg(long, value_name = "N", default_value_t = 20_000, allow_negative_numbers = true, value_parser = whole::<usize>(1, 10_000_000))]

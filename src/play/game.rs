@@ -8,7 +8,7 @@ use crate::scene::config;
 use crate::sim::hands::choose_pilot;
 use crate::sim::replay::Playback;
 use crate::sim::ship::Player;
-use crate::sim::{Chase, Clock, Engine, Fleet, Hands, ShipMotion, SimSet, Turning, outcome, start};
+use crate::sim::{Chase, Clock, Engine, Fleet, Hands, ShipMotion, SimSet, Turning, board, outcome, start};
 use crate::spacetime::matter::gamma;
 
 use crate::play::camera::orbit::Orbit;
@@ -67,7 +67,8 @@ pub fn begin(world: &mut World, screen: Screen) {
     let ship = world.resource::<Fleet>().0[session.player()];
     world.entity_mut(ship).insert(Player);
     let mut player = world.resource_mut::<PlayerState>();
-    player.autopilot = screen != Screen::Playing || player.always_autopilot;
+    player.autopilot = screen != Screen::Playing || player.crew.is_some();
+    let crew = player.crew.filter(|_| screen == Screen::Playing);
     player.follower.reset();
     player.gaze = Gaze::default();
     player.orbit = Orbit::default();
@@ -75,6 +76,9 @@ pub fn begin(world: &mut World, screen: Screen) {
     player.assist = None;
     player.fired = false;
     *world.resource_mut::<MouseTurn>() = MouseTurn::default();
+    if let Some(crew) = crew {
+        board(world, crew);
+    }
     begin_log(world, screen);
 }
 
@@ -174,7 +178,7 @@ fn read_keys(
         player.assist = Some(!player.assisted(&session.config));
     }
     let begins = hands.stick().thrust != glam::DVec3::ZERO || hands.holds(Action::LookAtTarget) || hands.holds(Action::ToggleAutopilot);
-    player.begun |= player.always_autopilot || begins;
+    player.begun |= player.crew.is_some() || begins;
     if hands.pushed(Action::ToggleAutopilot) {
         player.autopilot = !player.autopilot;
     }

@@ -10,7 +10,6 @@ use crate::play::player_state::PlayerState;
 use crate::play::records::{Best, Records};
 use crate::play::schedule::GameSet;
 use crate::play::session::Session;
-use crate::scene::crew::Crew;
 use crate::scene::mission::{Mission, ScoredBy};
 use crate::scene::{self, Scene};
 use crate::sim::replay::{Playback, Replay, ReplayLog};
@@ -132,7 +131,8 @@ pub fn begin_log(world: &mut World, screen: Screen) {
     let session = world.resource::<Session>().clone();
     let ghost = ghost(world, &session);
     world.insert_resource(Ghost(ghost.unwrap_or_else(History::nobody)));
-    let begun = Replay::begin(&session.scene, &session.config, session.difficulty, Crew::Expert, session.seed);
+    let crew = world.resource::<PlayerState>().crew.unwrap_or_default();
+    let begun = Replay::begin(&session.scene, &session.config, session.difficulty, crew, session.seed);
     if screen != Screen::Playing {
         world.insert_resource(TitleFlight(begun));
         return;

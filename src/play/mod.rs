@@ -37,6 +37,7 @@ use std::time::Instant;
 
 use crate::argument::whole;
 use crate::render::Gpu;
+use crate::scene::crew::Crew;
 use crate::scene::{Difficulty, config};
 use crate::sim::replay::Replay;
 use crate::user_file::check_writable;
@@ -72,6 +73,9 @@ pub struct PlayArgs {
     /// The autopilot flies the player's ship.
     #[arg(long)]
     pub autopilot: bool,
+    /// Who flies the player's ship instead: naive, apprentice, expert, or hands, which throw it about.
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["autopilot", "replay"])]
+    pub pilot: Option<Crew>,
     /// Renders the demonstration flight to PNG files, without a window.
     #[arg(long)]
     pub headless: bool,
@@ -211,7 +215,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
     }
     if let (Some(path), None, None) = (&args.sound, &args.record, args.frames) {
         warn_on_stderr();
-        return match demonstration::sound(&session, replay.as_ref(), path) {
+        return match demonstration::sound(&session, args.pilot.unwrap_or_default(), replay.as_ref(), path) {
             Ok(([from, to], end, seconds)) => {
                 say(&format!("The flight from T = {from:.1} to {to:.1} r_s/c: {end}.\nSound: {}, {seconds:.2} s.", path.display()));
                 ExitCode::SUCCESS
@@ -227,7 +231,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         // Bevy opens the adapter again; this one was to say in words what is missing.
         drop(gpu);
         let options = window::Options {
-            autopilot: args.autopilot,
+            crew: args.pilot.or(args.autopilot.then_some(Crew::Expert)),
             size: args.size,
             frames: args.frames,
             record: args.record.clone(),
@@ -251,6 +255,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         frames: args.frames.unwrap_or(demonstration::FRAMES),
         size: args.size.unwrap_or(demonstration::SIZE),
         folder: args.record.clone().unwrap_or_else(|| PathBuf::from("out")),
+        crew: args.pilot.unwrap_or_default(),
         replay,
         sound: args.sound.clone(),
     };

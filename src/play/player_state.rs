@@ -4,6 +4,7 @@ use crate::play::camera::orbit::Orbit;
 use crate::play::camera::{CameraView, Follower};
 use crate::play::input::gaze::Gaze;
 use crate::scene::GameConfig;
+use crate::scene::crew::Crew;
 use bevy::prelude::*;
 
 /// How the player plays: what is not in `game.toml`.
@@ -21,8 +22,8 @@ pub struct PlayerState {
     pub assist: Option<bool>,
     /// Who has flown in this chase.
     pub flown: Flown,
-    /// The autopilot was asked for on the command line.
-    pub always_autopilot: bool,
+    /// Who flies instead of the player from the start, as asked for on the command line.
+    pub crew: Option<Crew>,
     /// How the camera follows.
     pub follower: Follower,
     /// The player has thrust, looked at the target or let the autopilot fly, as the hint of the first flight says; or had time to read it.

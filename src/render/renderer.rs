@@ -306,11 +306,12 @@ impl Renderer {
         }
         let begin = self.timing.worked("slice of the table", begin);
         if let (Some(disk), Some(slice), true) = (&mut self.disk, &self.slice, self.has_disk) {
-            disk.prepare(&self.gpu, &self.frame_layout, input, slice, self.targets.size[0]);
+            disk.prepare(&self.gpu, &self.frame_layout, input, slice, self.targets.size);
         }
         let begin = self.timing.worked("view of the disk", begin);
         let ground = input.aurora.as_ref().and_then(|aurora| aurora.ground.as_ref());
-        self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget, ground);
+        let room = (self.targets.size, input.settings.vertex_budget);
+        self.geometry.prepare(&self.gpu, &self.models, &input.placed, room, ground);
         if self.geometry.has_thin() {
             let buffers = [self.geometry.thin(), self.geometry.arguments()];
             self.thin.prepare(&self.gpu, buffers, self.geometry.capacity().thin, self.targets.size);

@@ -2,7 +2,7 @@
 //!
 //! ```toml
 //! [expect]
-//! pilot = "expert"        # who flies the player's ship: "naive", "apprentice" or "expert" (if absent)
+//! pilot = "expert"        # who flies the player's ship: "naive", "apprentice", "hands" or "expert" (if absent)
 //! difficulty = "normal"   # of a mission
 //! seed = 1                # for everything left to chance; 0 if absent
 //! until = 100.0           # T in r_s/c at which it ends; the time limit if absent

@@ -13,6 +13,7 @@ use lensrunner::play::sound::read::Ear;
 use lensrunner::play::sound::record::Recorder;
 use lensrunner::play::sound::voices::beacon::{PERIOD, PITCH};
 use lensrunner::scene::Scene;
+use lensrunner::scene::crew::Crew;
 use lensrunner::sim::bolts::{Gun, Hits, Trigger};
 use lensrunner::sim::sight::emission_time;
 use lensrunner::sim::{Clock, Controls, Engine, Fleet, Fuel, History, ShipMotion, app_of};
@@ -164,7 +165,7 @@ fn engines_are_heard_as_they_burn() {
     assert!(during.load > 0.1);
     let own = app.world().resource::<Fleet>().0[0];
     let mut controls = Controls::default();
-    controls.0.rates = DVec3::X * app.world().get::<Engine>(own).expect("an engine").max_rate;
+    controls.0.rates = DVec3::X * app.world().get::<Engine>(own).expect("an engine").fastest_turn();
     controls.0.thrust = DVec3::X * most;
     app.world_mut().entity_mut(own).insert((controls, Fuel { left: 0.0, capacity: 1.0 }));
     run(&mut app, 3.0, |_| ());
@@ -273,7 +274,7 @@ fn the_demonstration_is_written_to_a_file() {
     let session = Session::load(None, Some("chase"), Some(1)).expect("the game's own files");
     let folder = Folder::new();
     let path = folder.path().join("flight.wav");
-    let (span, _, seconds) = demonstration::sound(&session, None, &path).expect("written");
+    let (span, _, seconds) = demonstration::sound(&session, Crew::Expert, None, &path).expect("written");
     // A step of the flight is 1/48 s.
     assert!((seconds - (span[1] - span[0]) / session.config.clock.pace).abs() < 0.03, "{span:?} {seconds}");
     let mut file = hound::WavReader::open(&path).expect("a WAV file");
@@ -282,6 +283,6 @@ fn the_demonstration_is_written_to_a_file() {
     let loud = (samples.iter().map(|&x| (f64::from(x) / 32768.0).powi(2)).sum::<f64>() / samples.len() as f64).sqrt();
     assert!((0.01..0.2).contains(&loud), "{loud}");
     let missing = folder.path().join("missing/flight.wav");
-    let error = demonstration::sound(&session, None, &missing).expect_err("no such folder").to_string();
+    let error = demonstration::sound(&session, Crew::Expert, None, &missing).expect_err("no such folder").to_string();
     assert!(error.contains("missing/flight.wav"), "{error}");
 }

@@ -20,11 +20,11 @@ use crate::render::shot::surroundings;
 use crate::render::stage::{Stage, settings};
 use crate::render::{Gpu, Renderer};
 use crate::scene::crew::Crew;
-use crate::sim::app_of;
 use crate::sim::bolts::Bolts;
 use crate::sim::replay::Replay;
 use crate::sim::snapshot::{Snapshot, View, step_after};
 use crate::sim::{Clock, Fleet, History, outcome};
+use crate::sim::{app_of, board};
 use crate::user_file::write_whole;
 
 use crate::play::camera::director::{Cast, Director};
@@ -51,7 +51,9 @@ pub struct DemonstrationRequest {
     pub size: [u32; 2],
     /// Where they go.
     pub folder: PathBuf,
-    /// The flight that is shown; without it the autopilot's.
+    /// Who flies the player's ship.
+    pub crew: Crew,
+    /// The flight that is shown; without it that of the crew.
     pub replay: Option<Replay>,
     /// The WAV file of its sound, if one is wanted.
     pub sound: Option<PathBuf>,
@@ -119,7 +121,7 @@ impl std::fmt::Display for Report {
 /// Plays the chase without graphics, then draws it.
 pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Result<Report, FlightError> {
     let mut recorder = flight.sound.is_some().then(|| Recorder::new(session));
-    let (world, span, end) = play(session, flight.replay.as_ref(), recorder.as_mut());
+    let (world, span, end) = play(session, flight.crew, flight.replay.as_ref(), recorder.as_mut());
     // Before the pictures, which take longer, so that what cannot be written is said soon.
     let sound = recorder.zip(flight.sound.as_ref()).map(|(recorder, path)| recorder.write(path, span[0])).transpose()?;
     let names: Vec<Entity> = world.world().resource::<Fleet>().0.clone();
@@ -139,7 +141,7 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Resul
     settings.own_ship = Some(session.player());
     settings.engines = Some([session.config.ship.thrust, session.config.enemy.thrust]);
     let mut director = Director::default();
-    let own = || Replay::begin(&session.scene, &session.config, session.difficulty, Crew::Expert, session.seed);
+    let own = || Replay::begin(&session.scene, &session.config, session.difficulty, flight.crew, session.seed);
     let shown = flight.replay.clone().unwrap_or_else(own);
     let step = world.world().resource::<Clock>().step;
 
@@ -192,9 +194,9 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Resul
 
 /// Plays the chase and writes its sound alone: neither pictures nor a GPU. From what T to what T it goes (r_s/c), how it ended, and the
 /// length of the sound in seconds.
-pub fn sound(session: &Session, replay: Option<&Replay>, path: &Path) -> Result<([f64; 2], String, f64), SoundFileError> {
+pub fn sound(session: &Session, crew: Crew, replay: Option<&Replay>, path: &Path) -> Result<([f64; 2], String, f64), SoundFileError> {
     let mut recorder = Recorder::new(session);
-    let (_, span, end) = play(session, replay, Some(&mut recorder));
+    let (_, span, end) = play(session, crew, replay, Some(&mut recorder));
     Ok((span, end, recorder.write(path, span[0])?))
 }
 
@@ -214,11 +216,15 @@ fn progress(frames: u32) -> ProgressBar {
 }
 
 /// Plays the chase to its end, with somebody who listens; the app, the span to show, and how it ended.
-fn play(session: &Session, replay: Option<&Replay>, mut recorder: Option<&mut Recorder>) -> (App, [f64; 2], String) {
+fn play(session: &Session, crew: Crew, replay: Option<&Replay>, mut recorder: Option<&mut Recorder>) -> (App, [f64; 2], String) {
     let config = session.effective();
     let mut app = match replay {
         Some(replay) => replay.app(&session.scene, &session.config),
-        None => app_of(&session.scene, &config, session.seed),
+        None => {
+            let mut app = app_of(&session.scene, &config, session.seed);
+            board(app.world_mut(), crew);
+            app
+        }
     };
     // Of a replay all is shown.
     let longest = if replay.is_some() { f64::INFINITY } else { SPAN.1 };

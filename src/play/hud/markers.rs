@@ -342,8 +342,7 @@ mod tests {
             for k in 0..64 {
                 let (y, x) = (f64::from(k) * std::f64::consts::TAU / 64.0).sin_cos();
                 let behind = DVec3::new(x, y, 0.4);
-                let panel =
-                    Panel { hole: Some(behind.with_z(0.5)), images: image(behind), field_of_view: 1.05, ..Panel::default() };
+                let panel = Panel { hole: Some(behind.with_z(0.5)), images: image(behind), field_of_view: 1.05, ..Panel::default() };
                 on_canvas(size, |painter, rect| {
                     let [wide, high] = size;
                     // Four corners, the countdown, one's own ship.

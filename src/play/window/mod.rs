@@ -33,7 +33,7 @@ use crate::play::session::{SCENE, Session};
 use crate::play::sound::plugin::SoundPlugin;
 use crate::render::plugin::RelativisticRenderPlugin;
 use crate::render::shot::surroundings;
-use crate::scene;
+use crate::scene::{self, crew::Crew};
 use crate::sim::SimulationPlugins;
 use crate::sim::replay::Replay;
 use interface::{InterfacePlugin, mode, present_mode};
@@ -41,8 +41,8 @@ use interface::{InterfacePlugin, mode, present_mode};
 /// What the command line asked for beyond the session.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// The autopilot flies from the start.
-    pub autopilot: bool,
+    /// Who flies from the start instead of the player.
+    pub crew: Option<Crew>,
     /// Size of the window, in pixels.
     pub size: Option<[u32; 2]>,
     /// Closes after so many frames.
@@ -137,7 +137,7 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
         ))
         .add_plugins(record::RecordPlugin { folder: options.record.clone(), frames: options.frames })
         .insert_resource(Quality::new(governed))
-        .insert_resource(PlayerState { always_autopilot: options.autopilot, choice, ..default() })
+        .insert_resource(PlayerState { crew: options.crew, choice, ..default() })
         .insert_resource(catalogue)
         .insert_resource(choices)
         .insert_resource(FileConfig(file_config))

@@ -41,6 +41,12 @@ fn room(budget: u32, vertices: u32, triangles: u32, most: u64) -> Capacity {
     Capacity { vertices: vertices + budget, indices: 3 * (2 * budget + 5 * triangles), work: budget / 10, thin: 3 * (budget / 3) }
 }
 
+/// So many pieces are split in a picture of this size at most, beside one for each triangle of its models: what is halved again shows less
+/// than eight pixels, and only where splitting does not end are there so many.
+pub fn most_split(size: [u32; 2]) -> u32 {
+    size[0] * size[1] / 8
+}
+
 /// The stages of geometry and the buffers between them.
 #[derive(Debug)]
 pub struct Geometry {
@@ -234,9 +240,16 @@ impl Geometry {
         self.groups = None;
     }
 
-    /// Writes what is to be drawn in this frame, with room for `budget` vertices of the mesh stage.
+    /// Writes what is to be drawn in a picture of this size, with room for `budget` vertices of the mesh stage.
     /// `ground` is the aurora's light on its planet.
-    pub fn prepare(&mut self, gpu: &Gpu, models: &Models, placed: &[Placed], budget: u32, ground: Option<&GroundFrame>) {
+    pub fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        models: &Models,
+        placed: &[Placed],
+        (size, budget): ([u32; 2], u32),
+        ground: Option<&GroundFrame>,
+    ) {
         let mut instances: Vec<Instance> = Vec::with_capacity(placed.len());
         let mut chunks: [Vec<Chunk>; 3] = Default::default();
         let drawn = || placed.iter().filter(|item| item.instance.is_finite());
@@ -290,7 +303,8 @@ impl Geometry {
             self.make_groups(gpu, models);
         }
         // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
-        let counters = Counters { vertices, model_vertices: vertices, turn: 1, caught: refused, calmed, ..Counters::default() };
+        let most_split = most_split(size) + triangles;
+        let counters = Counters { vertices, model_vertices: vertices, turn: 1, caught: refused, calmed, most_split, ..Counters::default() };
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&counters));
     }
 

@@ -69,18 +69,8 @@ pub struct Instance {
 impl Instance {
     /// Whether none of its numbers is NaN or infinite.
     pub fn is_finite(&self) -> bool {
-        let rows = [
-            self.offset,
-            self.axis,
-            self.position,
-            self.velocity,
-            self.momentum,
-            self.spin,
-            self.nodes,
-            self.drift,
-            self.force,
-            self.snap,
-        ];
+        let rows =
+            [self.offset, self.axis, self.position, self.velocity, self.momentum, self.spin, self.nodes, self.drift, self.force, self.snap];
         let matrices = [self.shape, self.turn, self.light, self.bounds];
         rows.iter().chain(matrices.iter().flatten()).flatten().all(|x| x.is_finite())
     }
@@ -180,6 +170,7 @@ pub struct Counters {
     pub outside: u32,
     pub split: u32,
     pub calmed: u32,
+    pub most_split: u32,
 }
 
 impl Counters {

@@ -111,10 +111,10 @@ pub struct EnemyAiPlugin;
 
 impl Plugin for EnemyAiPlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<Skills>()
-            .init_resource::<Chance>()
-            .init_resource::<ChaseRules>()
-            .add_systems(FixedUpdate, (orders::give_orders, beginner::fly_as_beginner, jerky::fly_by_jerks, fly_by_pilot).chain().in_set(SimSet::Ai));
+        app.init_resource::<Skills>().init_resource::<Chance>().init_resource::<ChaseRules>().add_systems(
+            FixedUpdate,
+            (orders::give_orders, beginner::fly_as_beginner, jerky::fly_by_jerks, fly_by_pilot).chain().in_set(SimSet::Ai),
+        );
     }
 }
 

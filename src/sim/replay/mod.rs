@@ -26,7 +26,7 @@ use packing::{MOST_BYTES, pack, unpack};
 pub use packing::Record;
 
 /// The version of the format.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 /// The most steps of a flight: up to T = 1e5 r_s/c with the usual step. Each takes some 180 bytes a ship when it is flown again.
 pub const MOST_STEPS: u64 = 3_200_001;
 /// The sections of `game.toml` that a flight depends on.
@@ -433,7 +433,7 @@ mod tests {
         let middle = good.len() / 2;
         let mut wrong = vec![String::new(), "x".into(), good[..middle].to_owned(), good.replace("seed = 7", "seed = 8")];
         wrong.push(good.replace("version = \"", "version = \"9"));
-        wrong.push(good.replace("replay = 1", "replay = 2"));
+        wrong.push(good.replace("replay = 2", "replay = 3"));
         for (place, text) in wrong.iter().enumerate() {
             let said = Replay::from_text(Path::new("a.toml"), text).expect_err("refused").to_string();
             assert!(said.starts_with("a.toml: ") && !said.contains('\n'), "{place}: {said}");

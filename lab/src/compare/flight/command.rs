@@ -84,8 +84,16 @@ pub fn run(request: &FlightRequest, contestant: &Contestant, shower: &Shower) ->
     make_folder(&request.output)?;
     let count = request.at.map_or(request.moments, |_| 1) as u64;
     let bar = bar(request.seeds * count);
-    let mut flight =
-        Flight { request, scene: &scene, text: &text, config: config.clone(), contestant, shower, rows: Vec::new(), tally: Tally::default() };
+    let mut flight = Flight {
+        request,
+        scene: &scene,
+        text: &text,
+        config: config.clone(),
+        contestant,
+        shower,
+        rows: Vec::new(),
+        tally: Tally::default(),
+    };
     let by_hands = request.pilot == Crew::Hands;
     for seed in request.first..request.first.saturating_add(request.seeds) {
         bar.set_message(format!("seed {seed}: flying"));
