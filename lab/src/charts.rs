@@ -12,7 +12,8 @@ use lensrunner_lab::dial::{self, DialRequest};
 use lensrunner_lab::projection::ChartError;
 use lensrunner_lab::projection::race::Race;
 use lensrunner_lab::{
-    aurora, aurora_race, bvh, chart, drivers, flight, frame_times, hands_frames, projection, soak, tessellation, thin_disk, window_rates,
+    aurora, aurora_race, bvh, chart, drivers, flight, frame_times, hands_frames, motion, projection, soak, tessellation, thin_disk,
+    window_rates,
 };
 
 use crate::fail;
@@ -33,6 +34,7 @@ pub enum ChartCommand {
     Quarry(ChartQuarryArgs),
     Soak(ChartSoakArgs),
     Hands(ChartHandsArgs),
+    Motion(ChartMotionArgs),
     Steps(ChartStepsArgs),
     Overlay(ChartOverlayArgs),
     Window(ChartWindowArgs),
@@ -182,6 +184,20 @@ pub struct ChartHandsArgs {
     #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = lensrunner::render::shot::size)]
     size: [u32; 2],
     /// The folder for the table.
+    #[arg(short, value_name = "DIR", default_value = chart::DEFAULT_FOLDER)]
+    output: PathBuf,
+}
+
+/// How the motion of a near body is told to the graphics card, smooth or by nodes: error against cost, while hands fly.
+#[derive(Args)]
+pub struct ChartMotionArgs {
+    /// Moments at each pace.
+    #[arg(long, value_name = "N", default_value_t = 200, allow_negative_numbers = true, value_parser = whole::<usize>(1, 100_000))]
+    moments: usize,
+    /// Draws again from the CSV, without measuring.
+    #[arg(long)]
+    redraw: bool,
+    /// The folder for the chart.
     #[arg(short, value_name = "DIR", default_value = chart::DEFAULT_FOLDER)]
     output: PathBuf,
 }
@@ -403,6 +419,9 @@ pub fn run(chart: ChartCommand) -> ExitCode {
         ChartCommand::Hands(ChartHandsArgs { scenes, frames, size, output }) => {
             let output = chart::Output { folder: output, redraw: false };
             finish_chart(hands_frames::run(&hands_frames::HandsRequest { output, scenes, frames, size }, &mut io::stdout().lock()))
+        }
+        ChartCommand::Motion(ChartMotionArgs { moments, redraw, output }) => {
+            finish_chart(motion::run(&motion::MotionRequest { output: chart::Output { folder: output, redraw }, moments }))
         }
         ChartCommand::Overlay(args) => match lensrunner_lab::overlay_cost::run(args.frames as usize, &mut io::stdout().lock()) {
             Ok(()) => ExitCode::SUCCESS,

@@ -24,6 +24,7 @@ pub mod flight;
 pub mod flip;
 pub mod frame_times;
 pub mod hands_frames;
+pub mod motion;
 pub mod overlay_cost;
 pub mod plot;
 pub mod products;

@@ -315,6 +315,16 @@ pub const PRODUCTS: &[Product] = &[
         seconds: [1200.0, 30.0],
     },
     Product {
+        name: "motion",
+        runs: &[lab("chart motion -o {}")],
+        quick: &[lab("chart motion --moments 5 -o {}")],
+        folder: "lab",
+        files: &["motion.csv", "motion.png", "motion.svg"],
+        grows: false,
+        sources: &[FLOWN, &["src/render/instances", "lab/src/motion"]],
+        seconds: [20.0, 5.0],
+    },
+    Product {
         name: "soak",
         runs: &[lab("chart soak -o {}")],
         quick: &[lab("chart soak --steps 2000 --frames 20 -o {}")],

@@ -31,7 +31,7 @@ const fn fault(file: &'static str, right: &'static str, wrong: &'static str) -> 
 }
 
 /// All of them.
-pub const HELD: [Held; 15] = [
+pub const HELD: [Held; 18] = [
     Held {
         part: "light",
         place: "NaN, infinities, denormals and zeros in every argument",
@@ -56,6 +56,35 @@ pub const HELD: [Held; 15] = [
         must: "it hovered before; a look into any past ends",
         test: ["tests/sim/history.rs", "what_would_have_come_out_of_the_hole_hovered"],
         fault: fault("src/sim/history.rs", "} else if came_out_of_the_hole(&self.state) {", "} else if self.held {"),
+    },
+    Held {
+        part: "matter",
+        place: "ships in hands, at any pace, with any turn rate that is set",
+        must: "no vertex faster than a quarter of light; no turn sooner than light crosses the ship",
+        test: ["tests/sim/turning.rs", "no_vertex_is_faster_than_a_quarter_of_light_and_no_turn_begins_at_once"],
+        fault: fault("src/sim/ship.rs", "self.max_rate.min(TIP_SPEED / self.reach)", "self.max_rate.min(1.2 * TIP_SPEED / self.reach)"),
+    },
+    Held {
+        part: "drawing",
+        place: "a ship that hands throw about, from all sides, at five paces",
+        must: "within the limits of the verdict",
+        test: ["lab/tests/compare/flight.rs", "a_ship_in_hands_is_drawn_where_it_is"],
+        fault: fault(
+            "src/render/instances/swing.rs",
+            "before = if sample.attitude.dot(before) < 0.0 { -sample.attitude } else { sample.attitude };",
+            "before = now.attitude;",
+        ),
+    },
+    Held {
+        part: "drawing",
+        place: "flights that nobody can fly: tips faster than light, thrust that tears a ship apart, jumps",
+        must: "at most four times the work of the ship at rest; no NaN",
+        test: ["tests/render/instances/hostile.rs", "any_history_takes_bounded_work_and_has_numbers"],
+        fault: fault(
+            "src/render/instances/swing.rs",
+            "let most_angle = FASTEST * step / reach;",
+            "let most_angle = 1e9 * FASTEST * step / reach;",
+        ),
     },
     Held {
         part: "drawing",

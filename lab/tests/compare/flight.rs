@@ -5,12 +5,16 @@ use std::path::Path;
 
 use glam::DVec3;
 use lensrunner::judge::case::Case;
+use lensrunner::scene::crew::Crew;
 use lensrunner::scene::{GameConfig, Scene};
 use lensrunner::sim::Moment;
 use lensrunner_lab::compare::Shown;
+use lensrunner_lab::compare::flight::eye::eye;
 use lensrunner_lab::compare::flight::freeze::freeze;
+use lensrunner_lab::compare::flight::hands::{self, Tally, pace};
 use lensrunner_lab::compare::flight::jump::jumps;
 use lensrunner_lab::compare::flight::moments::{Survey, choose, survey};
+use lensrunner_lab::compare::judged::{Terms, judge};
 
 /// A ship on an orbit, seen by a camera that hovers over its plane's edge: behind the hole once in each turn.
 const ORBIT: &str = "
@@ -72,6 +76,37 @@ fn a_frozen_moment_is_the_same_place_without_its_past() {
     assert!(then.camera.observer.attitude.angle_between(frozen.camera.observer.attitude) < 1e-6);
     assert_eq!(then.camera.observer.field_of_view, frozen.camera.observer.field_of_view);
     assert!(frozen.scene.disk(&frozen.config).is_some());
+}
+
+/// Some moments of a mission that hands fly, at each of the five paces: beside the judge's picture none is beyond a limit, and of the own
+/// ship's points 99 of 100 are within a quarter of a pixel.
+#[test]
+fn a_ship_in_hands_is_drawn_where_it_is() {
+    let scene = lensrunner::scene::load("06-the-long-shot").unwrap();
+    let contestant = lensrunner_lab::contestant::Contestant::default();
+    let mut tally = Tally::default();
+    for (seed, count) in [(0, 1), (1, 1), (2, 1), (3, 2), (4, 2)] {
+        let mut config = scene.config(&GameConfig::default(), lensrunner::scene::Difficulty::Normal);
+        config.clock.pace = pace(seed);
+        let chosen = hands::choose(&scene, &config, seed, 20.0, count);
+        assert_eq!(chosen, hands::choose(&scene, &config, seed, 20.0, count));
+        let mut moment = Moment::with_crew(&scene, &config, seed, Crew::Hands);
+        let mut now = 0;
+        for step in chosen {
+            moment.advance(step - now);
+            now = step;
+            // The cockpit's own ship is not drawn: such a moment judges others.
+            let Some((view, camera, hidden)) = eye(&scene, &config, &moment, seed, step) else { continue };
+            let case = Case::seen(scene.clone(), config.clone(), &moment, camera, hidden, [240, 135]);
+            let judged = judge(&case, &Terms::default(), &|case: &Case| contestant.draw(case)).unwrap();
+            assert!(judged.faults.is_empty(), "pace {}, {}: {:?}", config.clock.pace, view.name(), judged.faults);
+            tally.add(&scene, config.clock.pace, view, &judged);
+        }
+    }
+    let sheet = tally.sheet();
+    let all = sheet.rows.last().unwrap();
+    println!("{}", tally.text());
+    assert!(sheet.number(all, "own_points") > 500.0 && sheet.number(all, "own_p99_px") < 0.25, "{}", tally.text());
 }
 
 #[test]

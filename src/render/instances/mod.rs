@@ -153,12 +153,11 @@ pub fn instances_of(view: &View, time: f64, object: &DrawnObject, orders: u32) -
         }
         // Near the hole, relative to the object's size, an image is stretched round the ring and shows more detail than its width tells.
         let is_near = order.number() == 1 && position.length() > NEAR_FROM && position.dot(camera.position) > 0.0;
-        let model = if object.reach < 0.1 * position.length() { object.model_for(width, is_near, settings) } else { object.model };
+        let mut model = if object.reach < 0.1 * position.length() { object.model_for(width, is_near, settings) } else { object.model };
         set_strictness(&mut instance, view, width, order);
         instance.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
         let (mut nodes, mut calmed) = swing.map_or((Vec::new(), false), |swing| (swing.nodes, swing.calmed));
         let has_numbers = instance.is_finite() && nodes.iter().flatten().flatten().all(|x| x.is_finite());
-        let mut model = model;
         if let (Motion::Flying(history), false) = (object.motion, has_numbers) {
             // Its stand-in, straight on.
             (model, calmed) = (object.coarse, true);

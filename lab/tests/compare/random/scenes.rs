@@ -135,6 +135,7 @@ fn drawn_scenes_load_and_cover_what_methods_fail_at() {
             see(shape, drawn.text.contains(&format!("model = \"{shape}\"")));
         }
         see("model", drawn.text.contains("name = \"model-"));
+        see("flown by hands", drawn.text.contains("ai = \"hands\""));
     }
     assert!((0.4..0.6).contains(&(open as f64 / CASES as f64)), "{open} of {CASES} are open");
     let wanted = [
@@ -158,6 +159,7 @@ fn drawn_scenes_load_and_cover_what_methods_fail_at() {
         "320x180",
         "fast ship",
         "thrust",
+        "flown by hands",
         "hunter.glb",
         "quarry.glb",
         "many triangles",
