@@ -327,7 +327,8 @@ mod tests {
     #[test]
     fn arrows_to_one_side_are_apart() {
         let behind = DVec3::new(1.0, 0.02, 0.3);
-        let panel = Panel { hole: Some(DVec3::new(1.0, 0.0, 0.3)), images: image(behind), field_of_view: 1.0, ..Panel::default() };
+        let hole = Some(DVec3::new(1.0, 0.0, 0.3));
+        let panel = Panel { nose: Some(DVec3::NEG_Z), hole, images: image(behind), field_of_view: 1.0, ..Panel::default() };
         let (corner, mut boxes) = painted(&panel);
         // The reticle, two arrows, two names.
         assert_eq!(boxes.len(), 5);
@@ -368,7 +369,7 @@ mod tests {
         // At 1 rad over 900 points a pixel is near 1/824 rad: one above the other, at the right edge, and in the corner.
         for (x, y) in [(0.1, 0.1), (0.52, 0.1), (0.42, -0.22), (0.35, -0.19)] {
             let (seen, now) = (DVec3::new(x, y, -1.0), DVec3::new(x, y + 0.035, -1.0));
-            let panel = Panel { truth: Some(now), images: image(seen), field_of_view: 1.0, ..Panel::default() };
+            let panel = Panel { nose: Some(DVec3::NEG_Z), truth: Some(now), images: image(seen), field_of_view: 1.0, ..Panel::default() };
             let (corner, boxes) = painted(&panel);
             assert_eq!(boxes.len(), 5, "the reticle, two markers, two names");
             let names = &boxes[3..];

@@ -7,6 +7,7 @@ use glam::{DQuat, DVec3};
 use lensrunner::lensing::Slice;
 use lensrunner::render::Renderer;
 use lensrunner::render::frame::FrameInput;
+use lensrunner::render::geometry::most_split;
 use lensrunner::render::gpu::types::Counters;
 use lensrunner::render::instances::{DrawnObject, Illumination, Motion, View, instances_of};
 use lensrunner::render::models::ModelRange;
@@ -159,12 +160,18 @@ proptest! {
     }
 }
 
-/// The bound on splitting is far from what any scene of the game needs.
+/// Size and T of a scene of `tests/scenes/`, as its first lines say.
+fn told(text: &str) -> ([u32; 2], f64) {
+    let word = |key: &str| text.lines().find_map(|line| line.strip_prefix("# ")?.strip_prefix(key)?.strip_prefix(": "));
+    let size = word("size").and_then(|size| size.split_once('x')).map_or([160, 90], |(x, y)| [x.parse().unwrap(), y.parse().unwrap()]);
+    (size, word("T").map_or(0.0, |time| time.parse().unwrap()))
+}
+
+/// The bound on splitting is far from what any scene of the game needs, or any that was hard to draw.
 #[test]
 fn scenes_split_far_fewer_pieces_than_they_may() {
-    use lensrunner::render::geometry::most_split;
     let surroundings = Surroundings { table: shared_table(), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
-    for (name, size) in [
+    let game = [
         ("galaxy-axis", [640, 360]),
         ("galaxy-axis-vertex", [160, 90]),
         ("galaxy-20000", [320, 180]),
@@ -172,11 +179,19 @@ fn scenes_split_far_fewer_pieces_than_they_may() {
         ("ring", [160, 90]),
         ("plunge", [320, 180]),
         ("parade", [160, 90]),
-    ] {
-        let (scene, config) = (scene::load(name).unwrap(), GameConfig::default());
-        let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    ];
+    let mut scenes: Vec<(String, [u32; 2], f64)> = game.map(|(name, size)| (name.to_owned(), size, 1.0)).to_vec();
+    for file in std::fs::read_dir(crate::support::root().join("tests/scenes")).unwrap() {
+        let path = file.unwrap().path();
+        let (size, time) = told(&std::fs::read_to_string(&path).unwrap());
+        scenes.push((path.display().to_string(), size, time));
+    }
+    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, SIZE);
+    for (name, size, time) in scenes {
+        let (scene, config) = (scene::load(&name).unwrap(), GameConfig::default());
+        renderer.resize(size);
         let stage = Stage::new(&mut renderer, &scene, &config);
-        let moment = Moment::new(&scene, &config, 1.0, 0);
+        let moment = Moment::new(&scene, &config, time, 0);
         let camera = stage.camera(moment.time(), &moment.ships());
         let settings = Settings { stars: false, milky_way: false, ..settings(&config) };
         let frame = stage.frame(camera, size, moment.time(), &moment.histories(), None, &settings);
