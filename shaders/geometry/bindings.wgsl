@@ -78,8 +78,6 @@ struct Counters {
     split: u32,
     /// Images of bodies that are drawn as if they moved more slowly, as the processor counted them.
     calmed: u32,
-    /// So many may be split.
-    most_split: u32,
 }
 
 const NO_INSTANCE: u32 = 0xffffffffu;

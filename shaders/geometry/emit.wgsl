@@ -239,6 +239,10 @@ fn emit_whole(instance: u32, triangle: u32) {
     hand(Piece(vec4<u32>(instance, triangle, PIECE_TRIANGLE, 0u), none, none, none), vec4<u32>(1u), 1u, 1u, HANDED_TRIANGLE);
 }
 
+/// So many times the room for work items, pieces may be split in a frame: halving makes as many pieces as there are parts in the end, and
+/// more parts have no room. It bounds the time of a frame where splitting does not end, as for a ship at the horizon.
+const MOST_SPLIT: u32 = 2u;
+
 /// Hands over what was collected; pieces go to `queue`. A fifth of the buffers is kept back. If the rest is full, a piece is drawn without
 /// subdivision; if that fifth is used up too, the triangle of the model is drawn in its place.
 fn hand_over(queue: u32) {
@@ -249,7 +253,7 @@ fn hand_over(queue: u32) {
         var done = false;
         if kind == HANDED_PIECE {
             let slot = atomicAdd(&counters.pieces[queue], 1u);
-            if slot < frame.capacity.z && counters.split < counters.most_split {
+            if slot < frame.capacity.z && counters.split < MOST_SPLIT * frame.capacity.z {
                 pieces[queue * frame.capacity.z + slot] = piece;
                 done = true;
             } else {

@@ -306,12 +306,11 @@ impl Renderer {
         }
         let begin = self.timing.worked("slice of the table", begin);
         if let (Some(disk), Some(slice), true) = (&mut self.disk, &self.slice, self.has_disk) {
-            disk.prepare(&self.gpu, &self.frame_layout, input, slice, self.targets.size);
+            disk.prepare(&self.gpu, &self.frame_layout, input, slice, self.targets.size[0]);
         }
         let begin = self.timing.worked("view of the disk", begin);
         let ground = input.aurora.as_ref().and_then(|aurora| aurora.ground.as_ref());
-        let room = (self.targets.size, input.settings.vertex_budget);
-        self.geometry.prepare(&self.gpu, &self.models, &input.placed, room, ground);
+        self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget, ground);
         if self.geometry.has_thin() {
             let buffers = [self.geometry.thin(), self.geometry.arguments()];
             self.thin.prepare(&self.gpu, buffers, self.geometry.capacity().thin, self.targets.size);

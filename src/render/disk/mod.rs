@@ -107,8 +107,8 @@ impl DiskPasses {
     }
 
     /// Uploads what the frame needs.
-    pub fn prepare(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, input: &FrameInput, slice: &Slice, size: [u32; 2]) {
-        let mut view = DiskView::new(&self.disk, input, slice, size[0]);
+    pub fn prepare(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, input: &FrameInput, slice: &Slice, width: u32) {
+        let mut view = DiskView::new(&self.disk, input, slice, width);
         self.is_straight = !input.settings.method.bends();
         if self.is_straight && self.straight.is_none() {
             let radial = storage(gpu, "radial", &self.disk.radial_table());
@@ -118,9 +118,9 @@ impl DiskPasses {
             self.straight = Some(Box::new(polygons));
         }
         match &mut self.representation {
-            _ if self.is_straight => self.straight.iter_mut().for_each(|polygons| polygons.prepare(gpu, input, size)),
+            _ if self.is_straight => self.straight.iter_mut().for_each(|polygons| polygons.prepare(gpu, input, width)),
             Representation::Arcs => self.arcs.prepare(gpu, &mut view, &self.frame),
-            Representation::Polygons(polygons) => polygons.prepare(gpu, input, size),
+            Representation::Polygons(polygons) => polygons.prepare(gpu, input, width),
             Representation::Sprites(sprites) => sprites.prepare(&view),
         }
         gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&view.frame));

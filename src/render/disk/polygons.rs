@@ -107,10 +107,10 @@ impl PolygonPass {
         self.geometry.set_method(method, inside);
     }
 
-    /// Uploads what the frame needs, for a picture of this size.
-    pub fn prepare(&mut self, gpu: &Gpu, input: &FrameInput, size: [u32; 2]) {
+    /// Uploads what the frame needs, for a picture `width` pixels wide.
+    pub fn prepare(&mut self, gpu: &Gpu, input: &FrameInput, width: u32) {
         let bends = input.settings.method.bends();
-        let height = if bends { beside_the_axis(&input.camera, size[0], self.extent) } else { 0.0 };
+        let height = if bends { beside_the_axis(&input.camera, width, self.extent) } else { 0.0 };
         let p = height * DVec3::Z - input.camera.position;
         // T − T₀: about the time that light takes from the hole's surroundings.
         let elapsed = input.camera.radius();
@@ -143,7 +143,7 @@ impl PolygonPass {
                 turning.push([rate / TAU, azimuth / TAU].map(|value| value as f32));
             }
         }
-        self.geometry.prepare(gpu, &self.models, &placed, (size, input.settings.vertex_budget), None);
+        self.geometry.prepare(gpu, &self.models, &placed, input.settings.vertex_budget, None);
         self.turning.write(gpu, &turning);
         self.group = Some(bind(
             &gpu.device,

@@ -41,17 +41,6 @@ fn room(budget: u32, vertices: u32, triangles: u32, most: u64) -> Capacity {
     Capacity { vertices: vertices + budget, indices: 3 * (2 * budget + 5 * triangles), work: budget / 10, thin: 3 * (budget / 3) }
 }
 
-/// So many pieces are split in a picture of this size at most, beside one for each triangle of its models. Splitting follows lines: outlines
-/// and the ring round the hole, in some orders and some times over. Only where it does not end are there so many.
-pub fn most_split(size: [u32; 2]) -> u32 {
-    LEAST_SPLIT + PER_PIXEL_OF_THE_BORDER * (size[0] + size[1])
-}
-
-/// Pieces that any picture may split, and for a pixel of half its border: together twice what the scenes of the game and of the tests need
-/// (`scenes_split_far_fewer_pieces_than_they_may`).
-const LEAST_SPLIT: u32 = 32_768;
-const PER_PIXEL_OF_THE_BORDER: u32 = 40;
-
 /// The stages of geometry and the buffers between them.
 #[derive(Debug)]
 pub struct Geometry {
@@ -245,16 +234,9 @@ impl Geometry {
         self.groups = None;
     }
 
-    /// Writes what is to be drawn in a picture of this size, with room for `budget` vertices of the mesh stage.
+    /// Writes what is to be drawn in this frame, with room for `budget` vertices of the mesh stage.
     /// `ground` is the aurora's light on its planet.
-    pub fn prepare(
-        &mut self,
-        gpu: &Gpu,
-        models: &Models,
-        placed: &[Placed],
-        (size, budget): ([u32; 2], u32),
-        ground: Option<&GroundFrame>,
-    ) {
+    pub fn prepare(&mut self, gpu: &Gpu, models: &Models, placed: &[Placed], budget: u32, ground: Option<&GroundFrame>) {
         let mut instances: Vec<Instance> = Vec::with_capacity(placed.len());
         let mut chunks: [Vec<Chunk>; 3] = Default::default();
         let drawn = || placed.iter().filter(|item| item.instance.is_finite());
@@ -308,8 +290,7 @@ impl Geometry {
             self.make_groups(gpu, models);
         }
         // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
-        let most_split = most_split(size) + triangles;
-        let counters = Counters { vertices, model_vertices: vertices, turn: 1, caught: refused, calmed, most_split, ..Counters::default() };
+        let counters = Counters { vertices, model_vertices: vertices, turn: 1, caught: refused, calmed, ..Counters::default() };
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&counters));
     }
 

@@ -170,7 +170,6 @@ pub struct Counters {
     pub outside: u32,
     pub split: u32,
     pub calmed: u32,
-    pub most_split: u32,
 }
 
 impl Counters {

@@ -22,10 +22,12 @@ const PER_ROOT_PIXEL: f64 = 2.0;
 /// What a centre may stray from its smooth way without its nodes being read, in pixels.
 const STRAYS: f64 = 0.02;
 /// A centre that strays by more than this share of the body's reach has no smooth way.
-const WILD: f64 = 0.25;
-/// The fastest turn that is drawn: its farthest vertex against its centre, in c of the slice. A ship's is 1/4. Beyond 1 a point would be seen
-/// at several times at once.
+const WILD: f64 = 0.05;
+/// The fastest that a vertex goes round the centre, or to and from it as the contraction changes, in c of the slice. A ship's turn is 1/4.
+/// Beyond 1 a point would be seen at several times at once.
 const FASTEST: f64 = 0.5;
+/// The fastest that a centre goes against the rain, in c: with rounding, and the way between two nodes, which is a cubic.
+const FASTEST_WAY: f64 = 1.001;
 
 /// What is known of the image that a body is drawn in.
 #[derive(Clone, Copy, Debug)]
@@ -59,7 +61,7 @@ pub struct Swing {
     pub nodes: Vec<Node>,
     /// Whether the centre strays from its smooth way.
     pub strays: bool,
-    /// Whether the body turned or sprang faster than is drawn.
+    /// Whether the body turned or sprang faster than any can, so that it is drawn going straight on.
     pub calmed: bool,
 }
 
@@ -81,22 +83,28 @@ impl Swing {
         // The even part in s is a s² + k s⁴/12.
         let (even, even_half) = (moved_on + moved_back, moved(&half_back, -0.5 * w) + moved(&half_on, 0.5 * w));
         let force = (later.momentum - earlier.momentum) / (2.0 * w);
-        // The contraction of the body changes its points' places by at most reach |dp/dT| / γ² a time.
-        let most = FASTEST * gamma(now.momentum).powi(2) / reach;
         let mut swing = Swing {
             acceleration: (even_half * 16.0 - even) / (3.0 * w * w),
             jerk: (moved_on - moved_back) * (3.0 / (w * w * w)),
             snap: (even - even_half * 4.0) * (16.0 / (w * w * w * w)),
-            force: force.clamp_length_max(most),
+            force,
             spin: DVec3::ZERO,
             slack: 0.0,
             times: [0.0; 2],
             nodes: Vec::new(),
             strays: false,
-            calmed: force.length() > most,
+            // The contraction of the body changes its points' places by at most reach |dp/dT| / γ² a time.
+            calmed: force.length() * reach > FASTEST * gamma(now.momentum).powi(2),
         };
         swing.take_nodes(history, emission, &now, reach, seen);
         swing
+    }
+
+    /// Without a turn and along a straight line, for a time `span` (r_s/c) before and after.
+    fn go_straight_on(&mut self, attitude: DQuat, span: f64) {
+        (self.acceleration, self.jerk, self.snap, self.force) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+        self.times = [-span, 2.0 * span];
+        self.nodes = at_rest(attitude);
     }
 
     fn take_nodes(&mut self, history: &History, emission: f64, now: &Sample, reach: f64, seen: &Seen) {
@@ -108,14 +116,10 @@ impl Swing {
         let first = ((emission - seen.span - anchor) / step).floor();
         let last = ((emission + seen.span - anchor) / step).ceil().max(first + 1.0);
         let times: Vec<f64> = (0..=(last - first) as usize).map(|k| anchor + (first + k as f64) * step).collect();
-        let mut samples: Vec<Sample> = times.iter().map(|time| history.at(*time)).collect();
-        // From the middle outwards, so that the body is where and as it is at T₀.
-        let middle = times.partition_point(|time| *time <= emission).clamp(1, times.len() - 1);
-        for k in middle..samples.len() {
-            self.calmed |= calm(samples[k - 1], &mut samples[k], reach, step);
-        }
-        for k in (0..middle - 1).rev() {
-            self.calmed |= calm(samples[k + 1], &mut samples[k], reach, step);
+        let samples: Vec<Sample> = times.iter().map(|time| history.at(*time)).collect();
+        self.calmed |= samples.windows(2).any(|pair| is_wild(&pair[0], &pair[1], reach, step));
+        if self.calmed {
+            return self.go_straight_on(now.attitude, seen.span);
         }
         let way = |swing: &Swing, s: f64| {
             now.position + (now.velocity + (swing.acceleration + (swing.jerk + swing.snap * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s
@@ -148,23 +152,14 @@ impl Swing {
     }
 }
 
-/// Keeps a sample `step` (r_s/c) from another one to what is drawn: the centre no faster than anything can be on the slice, the turn no
-/// faster than [`FASTEST`]. Whether it was farther.
-fn calm(beside: Sample, sample: &mut Sample, reach: f64, step: f64) -> bool {
-    let deepest = beside.position.length().min(sample.position.length()).max(1e-3);
-    let way = sample.position - beside.position;
-    // Rounding, and the way between two nodes, which is a cubic.
-    let most_way = 1.1 * (1.0 + river_speed(deepest)) * step;
-    let angle = rotation(beside.attitude, sample.attitude).length();
-    let most_angle = FASTEST * step / reach;
-    if way.length() > most_way {
-        sample.position = beside.position + way * (most_way / way.length());
-    }
-    if angle > most_angle {
-        let towards = if sample.attitude.dot(beside.attitude) < 0.0 { -sample.attitude } else { sample.attitude };
-        sample.attitude = beside.attitude.slerp(towards, most_angle / angle);
-    }
-    way.length() > most_way || angle > most_angle
+/// Whether no body goes from one sample to another in `step` (r_s/c): its centre would outrun light, or its vertices [`FASTEST`].
+fn is_wild(earlier: &Sample, later: &Sample, reach: f64, step: f64) -> bool {
+    let between = 0.5 * (earlier.position + later.position);
+    let r = between.length().max(1e-3);
+    let against_rain = (later.position - earlier.position) / step + between * (river_speed(r) / r);
+    let turn = rotation(earlier.attitude, later.attitude).length();
+    // What is not a number is wild.
+    !(against_rain.length() <= FASTEST_WAY && turn <= FASTEST * step / reach)
 }
 
 /// A point of a body some time after T₀: its offset from the centre at T₀ (r_s, rain axes, on the slice), dx/dT (c), and the attitude.

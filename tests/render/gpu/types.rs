@@ -69,7 +69,7 @@ fn structs_have_one_layout_in_both_languages() {
         (
             "geometry::bindings::Counters",
             fields!(Counters: vertices, indices, work, thin, pieces, turn, coarse, cut, caught, model_vertices, lost, outside, split,
-            calmed, most_split),
+            calmed),
         ),
         ("gpu::types::Material", fields!(Material: base, emissive, surface)),
         ("shading::aurora_light::GroundLight", fields!(GroundLight: dipole ["dipole_x", "dipole_y", "dipole_z"], colour, map, planet)),
