@@ -12,7 +12,7 @@ use lensrunner::render::instances::{DrawnObject, Illumination, Motion, View, ins
 use lensrunner::render::models::ModelRange;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::settings::Settings;
-use lensrunner::render::stage::{settings, third_person};
+use lensrunner::render::stage::{Stage, settings, third_person};
 use lensrunner::scene::crew::Crew;
 use lensrunner::scene::model::import::load_or_placeholder;
 use lensrunner::scene::{self, GameConfig};
@@ -158,4 +158,27 @@ proptest! {
         moment.advance(steps);
         check(moment.histories()[0], moment.time(), turn)?;
     }
+}
+
+/// From the cockpit, in and after the frame in which a bolt is fired there: the bolt is not shown from within.
+#[test]
+fn a_bolt_is_fired_where_the_camera_is() {
+    let (scene, mut config) = (scene::load("06-the-long-shot").unwrap(), GameConfig::default());
+    config.clock.pace = 1.5;
+    let config = scene.config(&config, scene::Difficulty::Easy);
+    let mut moment = Moment::with_crew(&scene, &config, 1, Crew::Hands);
+    moment.advance((12.25 / config.clock.step) as u64 + 1);
+    let nobody = History::nobody();
+    let histories: Vec<&History> = moment.histories().into_iter().chain([&nobody]).chain(moment.bolts()).collect();
+    let surroundings = Surroundings { table: shared_table(), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
+    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, SIZE);
+    let stage = Stage::new(&mut renderer, &scene, &config);
+    // Fired by hands at T = 12.24: the camera is still within it.
+    let time = 12.25;
+    let camera = third_person(&state_at(histories[0], time), DVec3::ZERO, DQuat::IDENTITY, 1.0);
+    assert!(moment.bolts().iter().any(|bolt| bolt.exists_at(time) && bolt.at(time).position.distance(camera.position) < 0.035));
+    let frame = stage.frame(camera, SIZE, time, &histories, Some(0), &settings(&config));
+    renderer.picture(&frame, false).unwrap();
+    let counters = renderer.counters().unwrap();
+    assert!(counters.caught == 0 && counters.split < 1_000, "{counters:?}");
 }
