@@ -113,7 +113,7 @@ impl Scene {
 
     /// The model files that the scene is made of, each once, as the scene names them.
     pub fn model_files(&self) -> Vec<String> {
-        let ships = self.ships.iter().map(|ship| model_of(ship));
+        let ships = self.ships.iter().map(model_of);
         let props = self.props.iter().filter_map(|prop| if let Shape::File(file) = &prop.shape { Some(file.as_str()) } else { None });
         let mut files: Vec<String> = ships.chain(props).map(String::from).collect();
         files.sort();

@@ -136,7 +136,7 @@ fn thin_layout() -> wgpu::VertexBufferLayout<'static> {
 
 /// The texels of the table of instances: the instances, then the nodes of each, whose place is told to it.
 fn instance_table<'a>(instances: &mut [Instance], nodes: impl Iterator<Item = &'a [Node]>) -> Vec<[f32; 4]> {
-    let mut first = instances.len() * size_of::<Instance>() / size_of::<[f32; 4]>();
+    let mut first = size_of_val(instances) / size_of::<[f32; 4]>();
     let mut behind: Vec<[f32; 4]> = Vec::new();
     for (instance, nodes) in instances.iter_mut().zip(nodes) {
         instance.nodes[3] = f32::from_bits(first as u32);
