@@ -22,7 +22,7 @@ const PER_ROOT_PIXEL: f64 = 2.0;
 /// What a centre may stray from its smooth way without its nodes being read, in pixels.
 const STRAYS: f64 = 0.02;
 /// A centre that strays by more than this share of the body's reach has no smooth way.
-const WILD: f64 = 0.05;
+const WILD: f64 = 0.25;
 /// The fastest that a vertex goes round the centre, or to and from it as the contraction changes, in c of the slice. A ship's turn is 1/4.
 /// Beyond 1 a point would be seen at several times at once.
 const FASTEST: f64 = 0.5;
