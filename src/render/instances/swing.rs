@@ -154,9 +154,11 @@ impl Swing {
 
 /// Whether no body goes from one sample to another in `step` (r_s/c): its centre would outrun light, or its vertices [`FASTEST`].
 fn is_wild(earlier: &Sample, later: &Sample, reach: f64, step: f64) -> bool {
-    let between = 0.5 * (earlier.position + later.position);
-    let r = between.length().max(1e-3);
-    let against_rain = (later.position - earlier.position) / step + between * (river_speed(r) / r);
+    let outward = (earlier.position + later.position).normalize_or_zero();
+    let way = (later.position - earlier.position) / step;
+    // The river's speed on the way is between those at both ends: that which the body goes most nearly with.
+    let [a, b] = [earlier, later].map(|sample| river_speed(sample.position.length().max(1e-3)));
+    let against_rain = way + outward * (-way.dot(outward)).clamp(a.min(b), a.max(b));
     let turn = rotation(earlier.attitude, later.attitude).length();
     // What is not a number is wild.
     !(against_rain.length() <= FASTEST_WAY && turn <= FASTEST * step / reach)
