@@ -115,12 +115,18 @@ impl Swing {
         let step = if apart < coarse { apart * (fine / apart).floor().max(1.0) } else { fine };
         let first = ((emission - seen.span - anchor) / step).floor();
         let last = ((emission + seen.span - anchor) / step).ceil().max(first + 1.0);
-        let times: Vec<f64> = (0..=(last - first) as usize).map(|k| anchor + (first + k as f64) * step).collect();
-        let samples: Vec<Sample> = times.iter().map(|time| history.at(*time)).collect();
-        self.calmed |= samples.windows(2).any(|pair| is_wild(&pair[0], &pair[1], reach, step));
+        let mut times: Vec<f64> = (0..=(last - first) as usize).map(|k| anchor + (first + k as f64) * step).collect();
+        let mut samples: Vec<Sample> = times.iter().map(|time| history.at(*time)).collect();
+        // Nodes end where no body goes on: the singularity may lie within the time of what is seen of a ship that falls towards it.
+        let is_wild = |k: &usize| is_wild(&samples[*k], &samples[k + 1], reach, step);
+        let middle = times.partition_point(|time| *time <= emission).clamp(1, times.len() - 1) - 1;
+        let end = (middle..times.len() - 1).find(is_wild).unwrap_or(times.len() - 1);
+        let start = (0..middle).rev().find(is_wild).map_or(0, |k| k + 1);
+        self.calmed |= end == middle || times[start] > emission - reach.min(seen.span) || times[end] < emission + reach.min(seen.span);
         if self.calmed {
             return self.go_straight_on(now.attitude, seen.span);
         }
+        (times, samples) = (times[start..=end].to_vec(), samples[start..=end].to_vec());
         let way = |swing: &Swing, s: f64| {
             now.position + (now.velocity + (swing.acceleration + (swing.jerk + swing.snap * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s
         };
