@@ -6,22 +6,21 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use glam::DQuat;
-use thiserror::Error;
 
-use crate::chart::{Output, Provenance, Sheet, SheetError};
+use crate::chart::{Output, Provenance, Sheet};
 use crate::compare::flight::eye::own_ship;
 use crate::compare::flight::hands::PACES;
 use crate::frame_times::whole::draw;
+use crate::soak::SoakError;
 use lensrunner::play::camera::{CameraView, on_ship, state_of};
-use lensrunner::render::gpu::readback::PictureError;
 use lensrunner::render::gpu::targets::target;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::shot::surroundings;
 use lensrunner::render::stage::{Stage, settings};
-use lensrunner::render::{DeviceError, Gpu, Renderer};
+use lensrunner::render::{Gpu, Renderer};
 use lensrunner::scene::crew::Crew;
 use lensrunner::scene::mission::Difficulty;
-use lensrunner::scene::{self, GameConfig, SceneError};
+use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::{History, Moment};
 
 /// What to draw.
@@ -35,23 +34,6 @@ pub struct HandsRequest {
     pub frames: usize,
     /// Width and height in pixels.
     pub size: [u32; 2],
-}
-
-/// Why there is no answer.
-#[derive(Debug, Error)]
-pub enum HandsError {
-    /// A scene is wrong.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// There is nothing to draw with.
-    #[error(transparent)]
-    Device(#[from] DeviceError),
-    /// No picture.
-    #[error(transparent)]
-    Picture(#[from] PictureError),
-    /// The sheet.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
 }
 
 /// Columns of the sheet: times of a frame; the longest over the median, with its T; the most vertices and pieces of a frame over their
@@ -69,7 +51,7 @@ const WARMING: usize = 3;
 const LOOKS: usize = 40;
 
 /// Draws, writes `hands.csv` and says what came out.
-pub fn run(request: &HandsRequest, out: &mut impl Write) -> Result<Vec<PathBuf>, HandsError> {
+pub fn run(request: &HandsRequest, out: &mut impl Write) -> Result<Vec<PathBuf>, SoakError> {
     let gpu = Gpu::headless()?;
     let mut sheet = Sheet::new(&COLUMNS);
     sheet.notes = Provenance::now(&gpu.adapter_name()).notes();
@@ -97,7 +79,7 @@ struct Drawn {
 }
 
 /// The row of one flight; where it is decided, the next begins.
-fn fly(gpu: &Gpu, name: &str, pace: f64, seed: u64, frames: usize, size: [u32; 2]) -> Result<Vec<String>, HandsError> {
+fn fly(gpu: &Gpu, name: &str, pace: f64, seed: u64, frames: usize, size: [u32; 2]) -> Result<Vec<String>, SoakError> {
     let scene = scene::load(name)?;
     let mut config = GameConfig::default();
     config.clock.pace = pace;

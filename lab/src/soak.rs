@@ -34,7 +34,7 @@ pub struct SoakRequest {
     pub frames: u64,
 }
 
-/// Why there is no answer.
+/// Why there is no answer, here or from frames of hands.
 #[derive(Debug, Error)]
 pub enum SoakError {
     /// A scene is wrong.

@@ -287,7 +287,8 @@ fn hand_over(queue: u32) {
     }
 }
 
-/// Whether a patch with these corners is surely off the screen: all corners are beyond one side by more than the patch sags.
+/// Whether a patch with these corners is surely off the screen: all corners are beyond one side, or before the near plane, by more than the
+/// patch sags.
 fn off_screen(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, error: f32) -> bool {
     let fx = frame.projection.x;
     let fy = frame.projection.y;
@@ -300,5 +301,5 @@ fn off_screen(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, error: f32) -> bool {
     let y = vec3<f32>(a.y, b.y, c.y);
     let z = -vec3<f32>(a.z, b.z, c.z);
     return all((z - x * fx) * sx < -margin) || all((z + x * fx) * sx < -margin)
-        || all((z - y * fy) * sy < -margin) || all((z + y * fy) * sy < -margin);
+        || all((z - y * fy) * sy < -margin) || all((z + y * fy) * sy < -margin) || all(z - frame.projection.z < -margin);
 }

@@ -22,7 +22,7 @@ fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> Swing {
     // Rodrigues: sin θ / θ and (1 − cos θ) / θ² as polynomials in θ².
     let once = cross(turned, straight);
     let rest = straight + once * (1.0 - q * (1.0 / 6.0 - q / 120.0)) + cross(turned, once) * (0.5 - q * (1.0 / 24.0 - q / 720.0));
-    return carried(instance, rest, cross(instance.spin.xyz, rest), s);
+    return carried(instance, rest, cross(instance.spin.xyz, rest), s, vec3<f32>(0.0));
 }
 
 /// First guess of the emission time of a point, after T₀: nearly that of the centre.

@@ -1,14 +1,15 @@
 #define_import_path lensrunner::instances::recorded
 
-// Worldlines of the points of a body that was flown: its attitude, and where its centre was beside a smooth way, are read from nodes of what
-// was recorded. They lie behind the instances in their table, two texels each: the attitude; what to add to the smooth way (xyz).
+// Worldlines of the points of a body that was flown: its attitude, and where its centre and its momentum were beside a smooth way, are read
+// from nodes of what was recorded. They lie behind the instances in their table, three texels each: the attitude; what to add to the smooth
+// way (xyz); what to add to the smooth momentum (xyz).
 
 #import lensrunner::gpu::types::Instance
 #import lensrunner::instances::instance::{instance_row, shaped}
 #import lensrunner::instances::swing::{carried, Swing, turned_by}
 
 /// Texels of a node.
-const NODE_TEXELS: u32 = 2u;
+const NODE_TEXELS: u32 = 3u;
 
 /// The interval between two nodes that a time lies in, and the share of the way through it.
 struct NodePlace {
@@ -26,9 +27,10 @@ fn node_place(instance: Instance, s: f32) -> NodePlace {
     return NodePlace(u32(index), x - index, select(0.0, 1.0, at == x));
 }
 
-/// The body point `s` after T₀, between two nodes: their attitudes, and how far they are beside the smooth way. Twin of the function of the
-/// same name in src/render/instances/swing.rs.
-fn swing_between(instance: Instance, body: vec3<f32>, s: f32, place: NodePlace, turns: mat2x4<f32>, asides: mat2x3<f32>) -> Swing {
+/// The body point `s` after T₀, between two nodes: their attitudes, and how far they and their momenta are beside the smooth ones. Twin of
+/// the function of the same name in src/render/instances/swing.rs.
+fn swing_between(instance: Instance, body: vec3<f32>, s: f32, place: NodePlace, turns: mat2x4<f32>, asides: mat2x3<f32>,
+    pushes: mat2x3<f32>) -> Swing {
     let mean = mix(turns[0], turns[1], place.share);
     let length_squared = dot(mean, mean);
     let q = mean * inverseSqrt(length_squared);
@@ -37,7 +39,7 @@ fn swing_between(instance: Instance, body: vec3<f32>, s: f32, place: NodePlace, 
     let change = turns[1] - turns[0];
     let rate = 2.0 * (change.xyz * mean.w - mean.xyz * change.w - cross(change.xyz, mean.xyz)) / length_squared;
     let per_time = instance.nodes.y * place.inside;
-    var swing = carried(instance, rest, cross(rate, rest) * per_time, s);
+    var swing = carried(instance, rest, cross(rate, rest) * per_time, s, mix(pushes[0], pushes[1], place.share));
     swing.offset += mix(asides[0], asides[1], place.share);
     swing.velocity += (asides[1] - asides[0]) * per_time;
     swing.attitude = q;
@@ -53,11 +55,13 @@ fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> Swing {
     let first = bitcast<u32>(instance.nodes.w) + NODE_TEXELS * place.index;
     let turns = mat2x4<f32>(instance_row(first), instance_row(first + NODE_TEXELS));
     var asides = mat2x3<f32>();
+    var pushes = mat2x3<f32>();
     // Most bodies keep to the smooth way.
     if instance.force.w != 0.0 {
         asides = mat2x3<f32>(instance_row(first + 1u).xyz, instance_row(first + NODE_TEXELS + 1u).xyz);
+        pushes = mat2x3<f32>(instance_row(first + 2u).xyz, instance_row(first + NODE_TEXELS + 2u).xyz);
     }
-    return swing_between(instance, body, s, place, turns, asides);
+    return swing_between(instance, body, s, place, turns, asides, pushes);
 }
 
 /// First guess of the emission time of a point, after T₀: nearly that of the centre.

@@ -10,7 +10,6 @@ use crate::judge::picture::sky::{Background, stars};
 use crate::judge::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Surroundings, Sway, Thing, World, Worldline, picture};
 use crate::judge::trace::PixelCamera;
 use crate::picture_file::PictureFileError;
-use crate::scene::assembly::holds_camera;
 use crate::scene::camera::viewpoint::CameraEnded;
 use crate::scene::disk::Gas;
 use crate::scene::lighting::Lights;
@@ -244,9 +243,7 @@ impl Case {
                 Body::Ship(index) if self.hidden == Some(index) => return None,
                 Body::Ship(index) => flying(index)?,
                 // After the ships and the ghost; no scene has any at its start.
-                Body::Bolt(number) => {
-                    flying(self.scene.ships.len() + 1 + number).filter(|bolt| !holds_camera(bolt.1, self.camera.observer.position))?
-                }
+                Body::Bolt(number) => flying(self.scene.ships.len() + 1 + number)?,
                 Body::Ghost => return None,
                 Body::Planet => {
                     let planet: &dyn Worldline = self.scene.planet.as_ref()?;

@@ -6,7 +6,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glam::{DQuat, DVec3};
 
 use crate::lensing::{Slice, Table};
-use crate::scene::assembly::holds_camera;
 use crate::scene::camera::viewpoint;
 use crate::scene::config::AuroraConfig;
 use crate::scene::lighting::Lights;
@@ -207,9 +206,6 @@ impl Stage {
             }
             let line = self.worldline(&object.body, histories, globe.as_ref());
             let Some((motion, position)) = motion(&object.body, time, line) else { continue };
-            if matches!(object.body, Body::Bolt(_)) && holds_camera(position, camera.position) {
-                continue;
-            }
             let object = DrawnObject {
                 model: model.model,
                 coarse: model.coarse,

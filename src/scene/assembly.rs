@@ -63,12 +63,6 @@ const MOST_BYTES: usize = 1 << 30;
 pub const MOST_BOLTS: usize = 24;
 /// Diameter of a bolt, in r_s.
 const BOLT_SIZE: f64 = 0.07;
-/// Whether a bolt at this position (r_s) is not shown to a camera: it has just been fired from where the camera is, and would be seen from
-/// within.
-pub fn holds_camera(bolt: DVec3, camera: DVec3) -> bool {
-    bolt.distance(camera) < BOLT_SIZE
-}
-
 /// Light of a bolt, of 1 for a white surface in full light: one that flies away at 0.8 c is beamed down to 1/81 of it
 /// and reddened.
 const BOLT_LIGHT: [f32; 3] = [300.0, 450.0, 900.0];

@@ -40,7 +40,7 @@ fn scene() -> Scene {
 #[test]
 fn oppositions_are_found_and_the_rest_is_spread() {
     let config = GameConfig::default();
-    let found = survey(&scene(), &config, 1, 160.0);
+    let found = survey(&scene(), &config, 1, 160.0, Crew::Expert);
     assert_eq!(found.steps as f64 * config.clock.step, 160.0);
     // A turn takes 2π√(2·4³) = 71 r_s/c: two oppositions.
     let near = found.angles.windows(3).filter(|w| w[1] > w[0] && w[1] >= w[2] && w[1] > PI - 0.01).count();

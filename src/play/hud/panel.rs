@@ -115,7 +115,7 @@ pub(super) fn read_panel(
         heading: (moving.length() > 0.01).then(|| camera.attitude.conjugate() * moving.normalize()),
         field_of_view: now.session.config.video.fov.to_radians(),
         by_light: !marked_now,
-        nose: Some(camera.attitude.conjugate() * (state.attitude * glam::DVec3::NEG_Z)),
+        nose: is_own.then(|| camera.attitude.conjugate() * (state.attitude * glam::DVec3::NEG_Z)),
         gate,
         lines,
         closest: there.filter(|_| marked_now && is_own).and_then(|there| ahead::closest(&camera, &state, &there)),

@@ -141,7 +141,7 @@ fn instance_table<'a>(instances: &mut [Instance], nodes: impl Iterator<Item = &'
     for (instance, nodes) in instances.iter_mut().zip(nodes) {
         instance.nodes[3] = f32::from_bits(first as u32);
         behind.extend(nodes.as_flattened());
-        first += 2 * nodes.len();
+        first += nodes.as_flattened().len();
     }
     [bytemuck::cast_slice(instances), &behind].concat()
 }

@@ -1,5 +1,5 @@
 //! How a moving body moves, turns and contracts while its light crosses it. Its centre goes a smooth way, to fourth order in time; its
-//! attitude, and where the centre strays from that way, are read from its history at even times, the nodes. They go to the GPU with the
+//! attitude, and where centre and momentum stray from that way, are read from its history at even times, the nodes. They go to the GPU with the
 //! instance; [`swing_at`] is the twin of the shader's functions.
 
 use glam::{DQuat, DVec3, Quat, Vec3, Vec4};
@@ -11,15 +11,16 @@ use crate::spacetime::metric::river_speed;
 
 use crate::render::gpu::types::Instance;
 
-/// A node as the GPU reads it: the attitude (x, y, z, w, body to rain axes); what to add to the smooth way, in r_s.
-pub type Node = [[f32; 4]; 2];
+/// A node as the GPU reads it: the attitude (x, y, z, w, body to rain axes); what to add to the smooth way, in r_s; what to add to the
+/// smooth momentum, in c.
+pub type Node = [[f32; 4]; 3];
 
 /// The fewest and the most times between the nodes of an image.
 const INTERVALS: (f64, f64) = (4.0, 48.0);
 /// So many times between nodes, times the root of the image's width in pixels, show a body that takes up its turn as quickly as a ship can
 /// to a hundredth of a pixel: with n times over its length 2R the turn is off by (c/4)/2R² · (2R/n)²/8 at most, and half the width is R.
 const PER_ROOT_PIXEL: f64 = 2.0;
-/// What a centre may stray from its smooth way without its nodes being read, in pixels.
+/// What a point may stray from the smooth way and contraction without its nodes being read, in pixels.
 const STRAYS: f64 = 0.02;
 /// A centre that strays by more than this share of the body's reach has no smooth way.
 const WILD: f64 = 0.25;
@@ -59,7 +60,7 @@ pub struct Swing {
     pub times: [f64; 2],
     /// The nodes, at even times.
     pub nodes: Vec<Node>,
-    /// Whether the centre strays from its smooth way.
+    /// Whether the centre or the momentum strays from its smooth way.
     pub strays: bool,
     /// Whether the body turned or sprang faster than any can, so that it is drawn going straight on.
     pub calmed: bool,
@@ -93,8 +94,7 @@ impl Swing {
             times: [0.0; 2],
             nodes: Vec::new(),
             strays: false,
-            // The contraction of the body changes its points' places by at most reach |dp/dT| / γ² a time.
-            calmed: force.length() * reach > FASTEST * gamma(now.momentum).powi(2),
+            calmed: false,
         };
         swing.take_nodes(history, emission, &now, reach, seen);
         swing
@@ -118,7 +118,8 @@ impl Swing {
         let mut times: Vec<f64> = (0..=(last - first) as usize).map(|k| anchor + (first + k as f64) * step).collect();
         let mut samples: Vec<Sample> = times.iter().map(|time| history.at(*time)).collect();
         // Nodes end where no body goes on: the singularity may lie within the time of what is seen of a ship that falls towards it.
-        let is_wild = |k: &usize| is_wild(&samples[*k], &samples[k + 1], reach, step);
+        let turns: Vec<f64> = samples.windows(2).map(|pair| rotation(pair[0].attitude, pair[1].attitude).length() / step).collect();
+        let is_wild = |k: &usize| !(turns[*k] * reach <= FASTEST && is_possible(&samples[*k], &samples[k + 1], reach, step));
         let middle = times.partition_point(|time| *time <= emission).clamp(1, times.len() - 1) - 1;
         let end = (middle..times.len() - 1).find(is_wild).unwrap_or(times.len() - 1);
         let start = (0..middle).rev().find(is_wild).map_or(0, |k| k + 1);
@@ -126,6 +127,7 @@ impl Swing {
         if self.calmed {
             return self.go_straight_on(now.attitude, seen.span);
         }
+        let fastest = turns[start..end].iter().copied().fold(0.0, f64::max);
         (times, samples) = (times[start..=end].to_vec(), samples[start..=end].to_vec());
         let way = |swing: &Swing, s: f64| {
             now.position + (now.velocity + (swing.acceleration + (swing.jerk + swing.snap * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s
@@ -139,35 +141,38 @@ impl Swing {
             (self.acceleration, self.jerk, self.snap) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
             beside = asides(self);
         }
-        self.strays = farthest(&beside) > STRAYS * seen.pixel;
+        let pushed: Vec<DVec3> =
+            samples.iter().zip(&times).map(|(s, time)| s.momentum - now.momentum - self.force * (time - emission)).collect();
+        // A momentum that is off by δ contracts a point's place by at most the reach times δ.
+        self.strays = farthest(&beside).max(farthest(&pushed) * reach) > STRAYS * seen.pixel;
         let turns: Vec<DVec3> = samples.iter().map(|sample| rotation(now.attitude, sample.attitude)).collect();
         let ends = [turns[0], turns[turns.len() - 1]];
         self.spin = (ends[1] - ends[0]) / (times[times.len() - 1] - times[0]);
         let uneven = turns.iter().zip(&times).map(|(turn, time)| turn.distance(self.spin * (time - emission))).fold(0.0, f64::max);
-        let fastest = samples.windows(2).map(|pair| rotation(pair[0].attitude, pair[1].attitude).length()).fold(0.0, f64::max) / step;
         self.slack = uneven + fastest * reach;
         self.times = [times[0] - emission, step];
         let mut before = now.attitude;
-        self.nodes = (samples.iter().zip(beside))
-            .map(|(sample, aside)| {
+        self.nodes = (samples.iter().zip(beside).zip(pushed))
+            .map(|((sample, aside), pushed)| {
                 before = if sample.attitude.dot(before) < 0.0 { -sample.attitude } else { sample.attitude };
-                let [x, y, z] = aside.as_vec3().to_array();
-                [before.as_quat().to_array(), [x, y, z, 0.0]]
+                [before.as_quat().to_array(), aside.as_vec3().extend(0.0).to_array(), pushed.as_vec3().extend(0.0).to_array()]
             })
             .collect();
     }
 }
 
-/// Whether no body goes from one sample to another in `step` (r_s/c): its centre would outrun light, or its vertices [`FASTEST`].
-fn is_wild(earlier: &Sample, later: &Sample, reach: f64, step: f64) -> bool {
+/// Whether a body can go from one sample to another in `step` (r_s/c): no centre outruns light, and no contraction moves a vertex faster
+/// than [`FASTEST`]. What is not a number cannot.
+fn is_possible(earlier: &Sample, later: &Sample, reach: f64, step: f64) -> bool {
     let outward = (earlier.position + later.position).normalize_or_zero();
     let way = (later.position - earlier.position) / step;
     // The river's speed on the way is between those at both ends: that which the body goes most nearly with.
     let [a, b] = [earlier, later].map(|sample| river_speed(sample.position.length().max(1e-3)));
     let against_rain = way + outward * (-way.dot(outward)).clamp(a.min(b), a.max(b));
-    let turn = rotation(earlier.attitude, later.attitude).length();
-    // What is not a number is wild.
-    !(against_rain.length() <= FASTEST_WAY && turn <= FASTEST * step / reach)
+    // The contraction changes the points' places by at most reach |dp/dT| / γ² a time.
+    let slowest = gamma(earlier.momentum).min(gamma(later.momentum));
+    let spring = earlier.momentum.distance(later.momentum) * reach / (step * slowest * slowest);
+    against_rain.length() <= FASTEST_WAY && spring <= FASTEST
 }
 
 /// A point of a body some time after T₀: its offset from the centre at T₀ (r_s, rain axes, on the slice), dx/dT (c), and the attitude.
@@ -186,15 +191,16 @@ pub fn swing_at(instance: &Instance, nodes: &[Node], body: Vec3, s: f32) -> Swun
     let x = at.clamp(0.0, last);
     let index = x.floor().min(last - 1.0);
     let (share, inside) = (x - index, if at == x { 1.0 } else { 0.0 });
-    let [[turn_a, aside_a], [turn_b, aside_b]] = [nodes[index as usize], nodes[index as usize + 1]];
+    let [[turn_a, aside_a, pushed_a], [turn_b, aside_b, pushed_b]] = [nodes[index as usize], nodes[index as usize + 1]];
     let [turn_a, turn_b] = [turn_a, turn_b].map(Vec4::from_array);
     let (mean, change) = (turn_a.lerp(turn_b, share), turn_b - turn_a);
     let q = Quat::from_vec4(mean.normalize());
     let rest = q * (body * scale);
     let rate = change.truncate() * mean.w - mean.truncate() * change.w - change.truncate().cross(mean.truncate());
     let turning = (rate * (2.0 / mean.length_squared())).cross(rest) * (per_time * inside);
-    let mut swung = carried(instance, rest, turning, s);
-    if instance.force[3] != 0.0 {
+    let strays = if instance.force[3] != 0.0 { 1.0 } else { 0.0 };
+    let mut swung = carried(instance, rest, turning, s, xyz(pushed_a).lerp(xyz(pushed_b), share) * strays);
+    if strays > 0.0 {
         let [a, b] = [aside_a, aside_b].map(xyz);
         swung.0 += a.lerp(b, share);
         swung.1 += (b - a) * (per_time * inside);
@@ -203,13 +209,13 @@ pub fn swing_at(instance: &Instance, nodes: &[Node], body: Vec3, s: f32) -> Swun
 }
 
 /// Twin of `carried` in shaders/instances/swing.wgsl: offset and velocity.
-fn carried(instance: &Instance, rest: Vec3, turning: Vec3, s: f32) -> (Vec3, Vec3) {
+fn carried(instance: &Instance, rest: Vec3, turning: Vec3, s: f32, pushed: Vec3) -> (Vec3, Vec3) {
     let xyz = |row: [f32; 4]| Vec3::new(row[0], row[1], row[2]);
     let last = |m: [[f32; 4]; 3]| Vec3::new(m[0][3], m[1][3], m[2][3]);
     let (velocity, acceleration, jerk, snap) = (xyz(instance.velocity), last(instance.shape), last(instance.turn), xyz(instance.snap));
     let way = (velocity + (acceleration + (jerk + snap * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s;
     let velocity = velocity + (acceleration + (jerk + snap * (s / 3.0)) * (0.5 * s)) * s;
-    let p = xyz(instance.drift) + xyz(instance.force) * s;
+    let p = xyz(instance.drift) + xyz(instance.force) * s + pushed;
     let gamma = (1.0 + p.length_squared()).sqrt();
     let contracted = |v: Vec3| v - p * (p.dot(v) / (gamma * (1.0 + gamma)));
     (way + contracted(rest), velocity + contracted(turning))
@@ -217,5 +223,5 @@ fn carried(instance: &Instance, rest: Vec3, turning: Vec3, s: f32) -> (Vec3, Vec
 
 /// A body that goes straight on from a sample of its history without turning: for one whose own motion has no numbers.
 pub fn at_rest(attitude: DQuat) -> Vec<Node> {
-    vec![[attitude.as_quat().to_array(), [0.0; 4]]; 2]
+    vec![[attitude.as_quat().to_array(), [0.0; 4], [0.0; 4]]; 2]
 }

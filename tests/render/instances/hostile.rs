@@ -160,9 +160,10 @@ proptest! {
     }
 }
 
-/// From the cockpit, in and after the frame in which a bolt is fired there: the bolt is not shown from within.
+/// From the cockpit, in the frame after a bolt was fired there: its surface goes through the camera, and what lies before the near plane is
+/// not split.
 #[test]
-fn a_bolt_is_fired_where_the_camera_is() {
+fn a_surface_goes_through_the_camera() {
     let (scene, mut config) = (scene::load("06-the-long-shot").unwrap(), GameConfig::default());
     config.clock.pace = 1.5;
     let config = scene.config(&config, scene::Difficulty::Easy);

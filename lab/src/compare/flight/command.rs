@@ -104,7 +104,7 @@ pub fn run(request: &FlightRequest, contestant: &Contestant, shower: &Shower) ->
         let chosen = match request.at {
             Some(at) => vec![(at / step).round() as u64],
             None if by_hands => hands::choose(&scene, &flight.config, seed, scene.rules(&config).time_limit, request.moments),
-            None => choose(&survey(&scene, &config, seed, scene.rules(&config).time_limit), request.moments, step, seed),
+            None => choose(&survey(&scene, &config, seed, scene.rules(&config).time_limit, request.pilot), request.moments, step, seed),
         };
         // What was flown short has fewer.
         bar.dec_length(count - (chosen.len() as u64).min(count));

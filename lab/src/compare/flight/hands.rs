@@ -41,7 +41,6 @@ pub fn choose(scene: &Scene, config: &GameConfig, seed: u64, until: f64, count: 
     let mut chance = chance(seed, u64::MAX);
     let mut chosen: Vec<u64> = Vec::new();
     let mut tries = 0;
-    // The first light of the ship in motion takes about a length of its distance to come.
     while steps > 2 && chosen.len() < count && tries < 100 * count {
         let at = match fired.len() {
             0 => chance.random_range(2..steps),
