@@ -80,7 +80,7 @@ pub const HELD: [Held; 18] = [
         place: "flights that nobody can fly: tips faster than light, thrust that tears a ship apart, jumps",
         must: "at most four times the work of the ship at rest; no NaN",
         test: ["tests/render/instances/hostile.rs", "any_history_takes_bounded_work_and_has_numbers"],
-        fault: fault("src/render/instances/swing.rs", "turn <= FASTEST * step / reach)", "turn <= 1e9 * step / reach)"),
+        fault: fault("src/render/instances/swing.rs", "turns[*k] * reach <= FASTEST &&", "turns[*k] * reach <= 1e9 &&"),
     },
     Held {
         part: "drawing",
