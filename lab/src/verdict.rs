@@ -53,7 +53,7 @@ pub struct CompareArgs {
     flight: Option<String>,
     /// Who flies the player's ship in --flight: naive, apprentice, expert, or hands. Hands throw it about, at five paces by turns, and are
     /// looked at as a player looks: from behind, from the cockpit, from all around, and from beside.
-    #[arg(long, value_name = "NAME", default_value_t, requires = "flight")]
+    #[arg(long, value_name = "NAME", default_value_t, requires = "flight", conflicts_with = "scene")]
     pilot: Crew,
     /// How many chases --flight flies.
     #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = whole::<u64>(1, 1_000_000))]

@@ -4,9 +4,7 @@ use bevy::ecs::schedule::SingleThreadedExecutor;
 use bevy::prelude::*;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
-use crate::scene::assembly::model_of;
 use crate::scene::crew::Crew;
-use crate::scene::model::import::radius_of;
 use crate::scene::ship::{Ai, ShipSpec};
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::Observer;
@@ -156,10 +154,14 @@ fn defaults(config: &GameConfig) -> Defaults {
     }
 }
 
+/// Distances of the farthest vertices of `hunter.glb` and `quarry.glb` from their centres, in lengths of the ship. Flights do not depend on
+/// what other file a player puts in their place.
+pub const RADII: [f64; 2] = [0.580613374710083, 0.6264112591743469];
+
 /// Distance of the farthest vertex of a ship from its centre, in r_s; `sizes` are the lengths of hunters and of those who flee.
-pub fn reach_of(spec: &ShipSpec, [hunter, fleeing]: [f64; 2]) -> f64 {
-    let size = if spec.ai == Ai::Flee { fleeing } else { hunter };
-    f64::from(radius_of(model_of(spec))) * size
+pub fn reach_of(spec: &ShipSpec, sizes: [f64; 2]) -> f64 {
+    let kind = usize::from(spec.ai == Ai::Flee);
+    RADII[kind] * sizes[kind]
 }
 
 /// What a scene leaves open, from the game's configuration.

@@ -47,6 +47,13 @@ fn spheres_are_closed_and_turned_outwards() {
     }
 }
 
+/// The simulation knows how far its ships reach without reading their models.
+#[test]
+fn ships_reach_as_far_as_their_models() {
+    let radii = SHIP_MODELS.map(|name| f64::from(load_or_placeholder(name).0.radius()));
+    assert_eq!(radii, lensrunner::sim::setup::RADII);
+}
+
 #[test]
 fn shapes_have_the_triangles_asked_for() {
     assert_eq!(uv_sphere(1200, Material::default()).triangles.len(), 1224);

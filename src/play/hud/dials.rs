@@ -8,6 +8,7 @@ use crate::play::hud::paint::{ALARM, BAR_ROOM, FAINT, OWN, TEXT, TRUE, TextBox};
 use crate::play::hud::{BETWEEN, MARGIN};
 use crate::play::player_state::PlayerState;
 use crate::play::session::Session;
+use crate::scene::crew::Crew;
 
 /// Fuel is low below this share of a full tank.
 pub const LOW_FUEL: f64 = 0.15;
@@ -160,6 +161,7 @@ fn state(
     let language = session.language();
     let pilot = language.say(match (going.replayed, player.autopilot, player.assisted(&session.config)) {
         (true, ..) => "hud-replay",
+        (_, true, _) if player.crew == Some(Crew::Hands) => "hud-hands",
         (_, true, _) => "hud-autopilot",
         (_, _, true) => "hud-assist",
         _ => "hud-free-flight",

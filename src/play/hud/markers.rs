@@ -90,7 +90,8 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Taken, languag
     let before = panels.len() + other.len();
     let mut board = Board { painter, rect, marked: panels.clone(), taken: [panels, other].concat(), names: Vec::new() };
     // Where the ship points: not ahead while one looks aside, or the mouse leads the camera.
-    if let Some(MarkerPosition::On(at)) = panel.nose.map(find) {
+    let nose = panel.nose.map(find);
+    if let Some(MarkerPosition::On(at)) = nose {
         reticle(painter, point(at));
         board.takes(point(at), 18.0);
     }
@@ -164,6 +165,9 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Taken, languag
     }
     if let (Some((MarkerPosition::Edge(at, towards), _)), true) = (second, panel.by_light) {
         board.arrow(at, towards, &language.say("hud-second-image"), SEEN);
+    }
+    if let Some(MarkerPosition::Edge(at, towards)) = nose {
+        board.arrow(at, towards, &language.say("hud-nose"), TEXT);
     }
     // The hole's shadow shows it where it is on the screen.
     if let Some(MarkerPosition::Edge(at, towards)) = panel.hole.map(find) {

@@ -13,11 +13,13 @@ pub struct MouseTurn {
     pub waiting: DVec2,
     /// Flown in the last step.
     flown: DVec2,
+    /// Body rates that the keys alone would have turned the ship with, while the mouse turns it too (rad per proper r_s/c).
+    by_keys: Option<DVec3>,
     /// Asked for since the camera was led last.
     fresh: DVec2,
 }
 
-/// A turn that waits is at most this large, in radians, so that the ship stops soon after the hand, and points into what is seen.
+/// A turn that waits is at most this large, in radians, so that the ship stops soon after the hand.
 const MOST_WAITING: f64 = 0.5;
 
 impl MouseTurn {
@@ -55,7 +57,7 @@ impl MouseTurn {
         self.flown = DVec2::ZERO;
         // Less than half a step of the stick in one step is none.
         if span <= 0.0 || self.waiting.abs().max_element() < 0.5 / Hands::FULL * most * span {
-            self.waiting = DVec2::ZERO;
+            (self.waiting, self.by_keys) = (DVec2::ZERO, None);
             return keys;
         }
         // From the rate ω it stops after ω + (ω − a) + (ω − 2a) + … = ω²/2a + ω/2 steps' worth of turn, a being what the rate changes by.
@@ -65,8 +67,11 @@ impl MouseTurn {
         // In the steps that the hands are kept in.
         let stick = (keys + wanted.extend(0.0)).clamp(DVec3::NEG_ONE, DVec3::ONE);
         let stick = (stick * Hands::FULL).round() / Hands::FULL;
-        self.flown = (engine.turn(stick * most, turning, span) - keys * most).truncate() * span;
-        self.waiting = (self.waiting - self.flown).clamp_length_max(MOST_WAITING);
+        let by_keys = engine.turn(keys * most, self.by_keys.unwrap_or(turning), span);
+        let by_mouse = (engine.turn(stick * most, turning, span) - by_keys).truncate() * span;
+        // Where the keys alone ask for more than a body turns, the mouse adds nothing, and owes nothing to them.
+        self.flown = by_mouse.clamp(self.waiting.min(DVec2::ZERO), self.waiting.max(DVec2::ZERO));
+        (self.waiting, self.by_keys) = (self.waiting - self.flown, Some(by_keys));
         stick
     }
 }
@@ -113,6 +118,27 @@ mod tests {
         other.push(Vec2::new(50.0, -20.0), &config);
         assert!((other.waiting + DVec2::new(0.04, -0.1)).length() < 1e-12);
         assert_eq!(other.pull(DVec3::Z, &engine(1.5), DVec3::ZERO, 0.0), DVec3::Z);
+    }
+
+    /// Keys held together ask for more than a body turns; after them the ship turns on by no more than the mouse asked for.
+    #[test]
+    fn the_mouse_owes_nothing_to_the_keys() {
+        for (pace, keys) in [(1.5, DVec3::new(1.0, 1.0, 0.0)), (1.5, DVec3::new(0.0, 1.0, 1.0)), (0.375, DVec3::Y), (0.375, DVec3::NEG_X)] {
+            let after = |pixels: f32| {
+                let (engine, mut turning, mut sum) = (engine(pace), DVec3::ZERO, DVec2::ZERO);
+                let mut turn = MouseTurn::default();
+                turn.push(Vec2::new(pixels, 0.0), &GameConfig::default());
+                for k in 0..300 {
+                    let stick = turn.pull(if k < 100 { keys } else { DVec3::ZERO }, &engine, turning, STEP);
+                    turning = engine.turn(stick * engine.fastest_turn(), turning, STEP);
+                    sum += turning.truncate() * STEP;
+                }
+                sum
+            };
+            // 25 pixels are a twentieth of a radian.
+            let more = (after(25.0) - after(0.0)).length();
+            assert!(more < 0.06, "{pace} {keys}: {more}");
+        }
     }
 
     /// The camera is where the mouse went, whatever of it has been flown.

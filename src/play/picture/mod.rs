@@ -20,6 +20,7 @@ use crate::play::schedule::GameSet;
 use crate::render::plugin::{FrameToDraw, RenderStatistics};
 use crate::render::settings::{ANY_FILL, Settings, greatest_rise};
 use crate::render::stage::settings;
+use crate::scene::crew::Crew;
 use crate::scene::mission::GoalTask;
 use crate::sim::replay::Playback;
 use now::Now;
@@ -78,7 +79,7 @@ fn point_camera(
     let lead = if player.autopilot || playback.is_some() { DQuat::IDENTITY } else { turn.lead(now.share()) };
     let attitude = player.follower.follow((state.attitude * lead).normalize(), seconds, rigid);
     // Who does not fly by hand sees where the flight is to lead.
-    let watches = player.autopilot || playback.is_some();
+    let watches = player.autopilot && player.crew != Some(Crew::Hands) || playback.is_some();
     let sought = now.target().filter(|_| (player.looking || watches) && sight == ScreenContent::Own);
     let facing = sought.and_then(|(_, target)| player.gaze.facing(&state, player.view, now.session.length(me), attitude, time, target));
     let attitude = player.gaze.turned(attitude, facing, seconds, video.reduced_motion);

@@ -213,7 +213,7 @@ config! {
     ship: ShipConfig {
         thrust: f64 = 0.06, number(0.0, 10.0), "c^2/r_s", "largest proper acceleration";
         fuel: f64 = 7.0, number(0.0, 1000.0), "c", "velocity change in the tanks";
-        turn_rate: f64 = 1.2, number(0.05, 20.0), "rad per second", "fastest turn, by the second before the screen";
+        turn_rate: f64 = 1.2, number(0.05, 20.0), "rad per second", "fastest turn, by the second before the screen; at most as fast as a body turns";
         bolts: u32 = 0u32, integer(0, 1000), "bolts", "how many it may fire in a mission";
         size: f64 = 0.25, number(0.001, 10.0), "r_s", "length of the ship";
     }

@@ -1,9 +1,9 @@
 //! glTF files to [`Model`]s: all meshes of the default scene in one, transforms applied, textures decoded.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::io::Cursor;
 use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use glam::{DVec3, Mat3, Mat4, Vec2, Vec3, Vec4};
 use gltf::mesh::Mode;
@@ -113,18 +113,6 @@ pub fn load_or_placeholder(name: &str) -> (Model, Option<ModelError>) {
         Ok(model) => (model, None),
         Err(error) => (placeholder(), Some(error)),
     }
-}
-
-/// The radius ([`Model::radius`]) of the model `name`, or of its placeholder, in units of the model. A file is read once.
-pub fn radius_of(name: &str) -> f32 {
-    static KNOWN: Mutex<BTreeMap<String, f32>> = Mutex::new(BTreeMap::new());
-    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(radius) = known.get(name) {
-        return *radius;
-    }
-    let radius = load_or_placeholder(name).0.radius();
-    known.insert(name.to_owned(), radius);
-    radius
 }
 
 /// A magenta dart of length 1, nose at −z: what is drawn for a model that could not be read.
