@@ -157,7 +157,7 @@ fn glowing(emissive: [f32; 3]) -> Material {
 }
 
 /// The name of a ship's model: its own, else the quarry's for a ship that flees and the hunter's for every other.
-fn model_of(ship: &ShipSpec) -> &str {
+pub fn model_of(ship: &ShipSpec) -> &str {
     let [hunter, quarry] = SHIP_MODELS;
     ship.model.as_deref().unwrap_or(if ship.ai == Ai::Flee { quarry } else { hunter })
 }

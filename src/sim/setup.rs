@@ -4,7 +4,9 @@ use bevy::ecs::schedule::SingleThreadedExecutor;
 use bevy::prelude::*;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
+use crate::scene::assembly::model_of;
 use crate::scene::crew::Crew;
+use crate::scene::model::SHIP_MODELS;
 use crate::scene::ship::{Ai, ShipSpec};
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::Observer;
@@ -154,14 +156,15 @@ fn defaults(config: &GameConfig) -> Defaults {
     }
 }
 
-/// Distances of the farthest vertices of `hunter.glb` and `quarry.glb` from their centres, in lengths of the ship. Flights do not depend on
-/// what other file a player puts in their place.
+/// Distances of the farthest vertices of the [`SHIP_MODELS`] from their centres, in lengths of the ship. Flights do not depend on what other
+/// file a player puts in their place.
 pub const RADII: [f64; 2] = [0.580613374710083, 0.6264112591743469];
 
-/// Distance of the farthest vertex of a ship from its centre, in r_s; `sizes` are the lengths of hunters and of those who flee.
+/// Distance of the farthest vertex of a ship from its centre, in r_s; `sizes` are the lengths of hunters and of those who flee. A ship with a
+/// model of its own flies as the first of the game's.
 pub fn reach_of(spec: &ShipSpec, sizes: [f64; 2]) -> f64 {
-    let kind = usize::from(spec.ai == Ai::Flee);
-    RADII[kind] * sizes[kind]
+    let model = SHIP_MODELS.iter().position(|name| *name == model_of(spec)).unwrap_or(0);
+    RADII[model] * sizes[usize::from(spec.ai == Ai::Flee)]
 }
 
 /// What a scene leaves open, from the game's configuration.
