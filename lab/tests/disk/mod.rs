@@ -7,3 +7,28 @@ mod pictures;
 mod polygons;
 mod sprites;
 mod thin;
+
+use lensrunner::render::Renderer;
+use lensrunner::render::disk::Disk;
+use lensrunner::render::frame::FrameInput;
+use lensrunner::render::settings::Settings;
+use lensrunner::scene::GameConfig;
+use lensrunner::spacetime::Observer;
+
+/// The disk of a configuration that is the game's but for `change`.
+fn disk_with(change: impl FnOnce(&mut GameConfig)) -> Disk {
+    let mut config = GameConfig::default();
+    change(&mut config);
+    Disk::new(config.disk.clone(), &config)
+}
+
+/// Linear light of the renderer's disk alone.
+fn shown(renderer: &mut Renderer, camera: Observer, time: f64, settings: Settings) -> Vec<[f32; 3]> {
+    let input = FrameInput { camera, time, placed: Vec::new(), aurora: None, settings };
+    renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect()
+}
+
+/// The green of a picture in all.
+fn green(picture: &[[f32; 3]]) -> f64 {
+    picture.iter().map(|p| f64::from(p[1])).sum()
+}

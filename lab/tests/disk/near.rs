@@ -1,14 +1,12 @@
 //! The drawn disk from close by, pixel by pixel: parts of the pictures of the scenes `disk-inner` and `disk-skim` against the exact ones.
 
 use glam::DVec3;
-use lensrunner::render::disk::Disk;
-use lensrunner::render::frame::FrameInput;
 use lensrunner::render::stage::static_camera;
-use lensrunner::scene::GameConfig;
 use lensrunner::spacetime::Observer;
 use lensrunner_lab::disk;
 
-use crate::render_support::{renderer, settings};
+use super::{disk_with, shown};
+use crate::render_support::{a_disk, renderer, settings};
 
 /// As large as a picture of the game: what is finer than a pixel elsewhere is seen here.
 const SIZE: [u32; 2] = [1280, 720];
@@ -19,12 +17,9 @@ const TIME: f64 = 100.0;
 /// 64 samples a pixel: lines of less than a pixel fall between 16.
 fn errors<const N: usize>(camera: Observer, parts: [[[u32; 2]; 2]; N]) -> [f64; N] {
     let mut renderer = renderer(SIZE);
-    let config = GameConfig::default();
-    let disk = Disk::new(config.disk.clone(), &config);
+    let disk = a_disk();
     renderer.set_disk(Some(disk.clone()));
-    let input = FrameInput { camera, time: TIME, placed: Vec::new(), aurora: None, settings: settings() };
-    let linear = renderer.picture(&input, false).unwrap().linear;
-    let eye = camera;
+    let linear = shown(&mut renderer, camera, TIME, settings());
     parts.map(|part| {
         let [[left, top], size] = part;
         let drawn = |k: u32| {
@@ -32,7 +27,7 @@ fn errors<const N: usize>(camera: Observer, parts: [[[u32; 2]; 2]; N]) -> [f64; 
             [p[0], p[1], p[2]]
         };
         let got: Vec<[f32; 3]> = (0..size[0] * size[1]).map(drawn).collect();
-        let truth = disk::part(&disk.gas, &eye, SIZE, part, TIME, 3, 8);
+        let truth = disk::part(&disk.gas, &camera, SIZE, part, TIME, 3, 8);
         let error = disk::compare(&got, &truth, size, disk::peak(&truth));
         println!("{part:?}: {error:?}");
         error.relative
@@ -70,11 +65,8 @@ fn few_arcs_draw_the_picture_of_many() {
     let mut renderer = renderer(size);
     let camera = static_camera(DVec3::new(0.0, -3.3, 0.5), DVec3::new(0.9, 0.55, -0.1), DVec3::Z, 90f64.to_radians());
     let mut picture = |arcs: u32, width: f64| -> Vec<[f32; 3]> {
-        let mut config = GameConfig::default();
-        (config.disk.arcs, config.disk.width) = (arcs, width);
-        renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
-        let input = FrameInput { camera, time: TIME, placed: Vec::new(), aurora: None, settings: settings() };
-        renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect()
+        renderer.set_disk(Some(disk_with(|config| (config.disk.arcs, config.disk.width) = (arcs, width))));
+        shown(&mut renderer, camera, TIME, settings())
     };
     let many = picture(4200, 0.16);
     for (arcs, width) in [(16, 1.0), (60, 1.0), (200, 0.5)] {
@@ -92,12 +84,10 @@ fn thin_images_from_within_the_plane_have_no_holes() {
     const WIDTH: u32 = 960;
     const HEIGHT: u32 = 540;
     let mut renderer = renderer([WIDTH, HEIGHT]);
-    let config = GameConfig::default();
-    renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
+    renderer.set_disk(Some(a_disk()));
     let still = static_camera(DVec3::X * 1.6, DVec3::NEG_X, DVec3::Z, 120f64.to_radians());
     let camera = Observer { momentum: DVec3::ZERO, ..still };
-    let input = FrameInput { camera, time: TIME, placed: Vec::new(), aurora: None, settings: settings() };
-    let linear = renderer.picture(&input, false).unwrap().linear;
+    let linear = shown(&mut renderer, camera, TIME, settings());
     let light = |x: f64, y: f64| f64::from(linear[(y as u32 * WIDTH + x as u32) as usize][1]);
     let (mut rings, mut holes) = (0, 0);
     for k in 0..720 {

@@ -4,7 +4,6 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 use lensrunner::render::disk::Disk;
-use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback;
 use lensrunner::render::gpu::types::SeenVertex;
 use lensrunner::render::settings::Settings;
@@ -13,13 +12,12 @@ use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::polygons::rings;
 use lensrunner_lab::disk;
 
+use super::{disk_with, shown};
 use crate::gpu::GPU;
-use crate::render_support::{camera, renderer, settings, total};
+use crate::render_support::{camera, renderer, settings};
 
 fn polygons(representation: &str) -> Disk {
-    let mut config = GameConfig::default();
-    config.disk.representation = representation.into();
-    Disk::new(config.disk.clone(), &config)
+    disk_with(|config| config.disk.representation = representation.into())
 }
 
 /// Every corner of every ring is drawn where it was when its light left it: there the exact ray through that point of the picture meets the
@@ -34,8 +32,7 @@ fn a_ring_is_seen_where_it_was() {
     renderer.set_disk(Some(disk.clone()));
     for (l, degrees) in [(27.0, 30.0), (27.0, 80.0), (7.0, 60.0)] {
         let camera = camera(l, degrees, 60f64.to_radians());
-        let input = FrameInput { camera, time, placed: Vec::new(), aurora: None, settings: settings() };
-        renderer.picture(&input, false).unwrap();
+        shown(&mut renderer, camera, time, settings());
         let bytes = readback::buffer(&GPU, renderer.disk().unwrap().polygons().unwrap().seen()).unwrap();
         let vertices = bytes.chunks_exact(size_of::<SeenVertex>()).map(bytemuck::pod_read_unaligned::<SeenVertex>);
         let (mut checked, mut worst, mut farthest) = (0, 0.0f64, 0.0f64);
@@ -73,8 +70,7 @@ fn rings_that_turn_show_the_gas_of_those_at_rest() {
             (disk.config.polygons, disk.config.turbulence) = (5000, 0.0);
             disk.gas = lensrunner::scene::disk::Gas::new(&disk.config, GameConfig::default().hole.mass_solar);
             renderer.set_disk(Some(disk));
-            let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
-            renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect::<Vec<_>>()
+            shown(&mut renderer, camera, 100.0, settings())
         });
         let error = disk::compare(&turning, &resting, size, disk::peak(&resting));
         // Where those at rest are seen, and the rings all round, so are the rings: no gap opens between them. Not at the outer rim, where
@@ -105,8 +101,7 @@ fn polygons_are_seen_from_within_their_plane() {
         let camera = static_camera(position, -position, DVec3::Z, 60f64.to_radians());
         // The game's budget.
         let settings = Settings { pixel_error: GameConfig::default().render.pixel_error_budget as f32, ..settings() };
-        let input = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: None, settings };
-        total(&renderer.picture(&input, false).unwrap())
+        shown(&mut renderer, camera, 0.0, settings).iter().flatten().map(|light| f64::from(*light)).sum::<f64>()
     };
     let arcs = light("arcs", 0.0);
     // Chords, over which the falling gas thins out, and the height at which they are drawn. Not all vertices of rings that turn find room

@@ -2,7 +2,6 @@
 
 use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
-use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::settings::Settings;
 use lensrunner::scene::GameConfig;
@@ -10,14 +9,15 @@ use lensrunner::scene::disk::sprites::Sprites;
 use lensrunner::spacetime::Observer;
 use lensrunner_lab::disk;
 
+use super::{disk_with, green, shown};
 use crate::render_support::{camera, renderer, settings};
 use crate::twin::run;
 
 fn with(representation: &str, change: impl Fn(&mut GameConfig)) -> Disk {
-    let mut config = GameConfig::default();
-    config.disk.representation = representation.into();
-    change(&mut config);
-    Disk::new(config.disk.clone(), &config)
+    disk_with(|config| {
+        config.disk.representation = representation.into();
+        change(config);
+    })
 }
 
 /// The scene `disk-80` from 27 r_s.
@@ -33,8 +33,7 @@ fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Observer, orders: u32) ->
 fn drawn_at(renderer: &mut Renderer, disk: &Disk, camera: Observer, time: f64, orders: u32) -> Vec<[f32; 3]> {
     renderer.set_disk(Some(disk.clone()));
     let settings = Settings { orders, pixel_error: 100.0, ..settings() };
-    let input = FrameInput { camera, time, placed: Vec::new(), aurora: None, settings };
-    renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect()
+    shown(renderer, camera, time, settings)
 }
 
 /// Where the front of an opaque disk lies before its second image it hides it: there the light is that of arcs, and the same whether the
@@ -114,7 +113,6 @@ fn the_picture_of_sprites_is_the_exact_one() {
     let size = [320, 180];
     let sprites = with("sprites", |_| ());
     let mut renderer = renderer(size);
-    let light = |picture: &[[f32; 3]]| picture.iter().map(|p| f64::from(p[1])).sum::<f64>();
     // About 2 dB less than was measured, and no less light: streaks add up to 0.023 too much.
     for (l, degrees, least, most) in
         [(27.0, 0.0, 40.0, 0.03), (27.0, 30.0, 38.0, 0.03), (27.0, 80.0, 43.0, 0.03), (27.0, 88.0, 40.0, 0.03), (6.5, 87.0, 37.5, 0.03)]
@@ -123,7 +121,7 @@ fn the_picture_of_sprites_is_the_exact_one() {
         let got = drawn(&mut renderer, &sprites, camera, 2);
         let truth = disk::picture(&sprites.gas, &camera, size, 100.0, 2, 3);
         let error = disk::compare(&got, &truth, size, disk::peak(&truth));
-        let ratio = light(&got) / light(&truth);
+        let ratio = green(&got) / green(&truth);
         println!("L = {l}, {degrees}°: {error:?}, {ratio:.3} of the light");
         assert!(error.psnr > least, "L = {l}, {degrees}°: PSNR is {} dB", error.psnr);
         assert!((ratio - 1.0).abs() < most, "L = {l}, {degrees}°: {ratio} of the light");
@@ -138,11 +136,10 @@ fn sprites_without_streaks_have_their_light() {
     let size = [320, 180];
     let sprites = with("sprites", |config| config.disk.turbulence = 0.0);
     let mut renderer = renderer(size);
-    let light = |picture: &[[f32; 3]]| picture.iter().map(|p| f64::from(p[1])).sum::<f64>();
     for (l, degrees) in [(27.0, 0.0), (27.0, 80.0), (6.5, 87.0)] {
         let camera = camera(l, degrees, 60f64.to_radians());
         let truth = disk::picture(&sprites.gas, &camera, size, 100.0, 2, 3);
-        let ratio = light(&drawn(&mut renderer, &sprites, camera, 2)) / light(&truth);
+        let ratio = green(&drawn(&mut renderer, &sprites, camera, 2)) / green(&truth);
         println!("L = {l}, {degrees}°: {ratio:.4} of the light");
         assert!((ratio - 1.0).abs() < 0.005, "L = {l}, {degrees}°: {ratio} of the light");
     }
@@ -157,11 +154,10 @@ fn the_third_image_of_sprites_has_its_light() {
     let sprites = with("sprites", |_| ());
     let mut renderer = renderer(size);
     let camera = camera(27.0, 80.0, 15f64.to_radians());
-    let light = |picture: &[[f32; 3]]| picture.iter().map(|p| f64::from(p[1])).sum::<f64>();
     let [third, second] = [3, 2].map(|orders| {
         [60.0, 100.0, 145.0].map(|time| {
             let truth = disk::picture(&sprites.gas, &camera, size, time, orders, 2);
-            [drawn_at(&mut renderer, &sprites, camera, time, orders), truth].map(|picture| light(&picture))
+            [drawn_at(&mut renderer, &sprites, camera, time, orders), truth].map(|picture| green(&picture))
         })
     });
     let [third, second] = [third, second].map(|times| [0, 1].map(|k| times.iter().map(|both| both[k]).sum::<f64>()));

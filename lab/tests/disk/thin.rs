@@ -2,14 +2,12 @@
 
 use glam::DVec3;
 use lensrunner::render::Renderer;
-use lensrunner::render::disk::Disk;
-use lensrunner::render::frame::FrameInput;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
-use lensrunner::scene::GameConfig;
 use lensrunner::spacetime::Observer;
 use lensrunner_lab::disk;
 
+use super::{disk_with, green, shown};
 use crate::render_support::{camera, renderer, settings};
 
 /// T, in r_s/c.
@@ -53,21 +51,17 @@ fn places() -> [Place; 4] {
 fn light_over_exact(place: &Place, turbulence: Option<f64>, times: &[f64]) -> [f64; 2] {
     let Place { camera, size, part, samples, .. } = *place;
     let mut renderer = renderer(size);
-    let mut config = GameConfig::default();
-    config.disk.turbulence = turbulence.unwrap_or(config.disk.turbulence);
-    let disk = Disk::new(config.disk.clone(), &config);
+    let disk = disk_with(|config| config.disk.turbulence = turbulence.unwrap_or(config.disk.turbulence));
     renderer.set_disk(Some(disk.clone()));
-    let eye = camera;
     let [[left, top], [width, height]] = part;
     let sums = [1, 2, 3].map(|orders| {
         // A budget of many pixels: no third image unasked.
         let settings = Settings { orders, pixel_error: 100.0, ..settings() };
         let at = |time: f64, renderer: &mut Renderer| {
-            let input = FrameInput { camera, time, placed: Vec::new(), aurora: None, settings };
-            let linear = renderer.picture(&input, false).unwrap().linear;
+            let linear = shown(renderer, camera, time, settings);
             let rows = linear.chunks_exact(size[0] as usize).skip(top as usize).take(height as usize);
             let got: f64 = rows.flat_map(|row| &row[left as usize..(left + width) as usize]).map(|p| f64::from(p[1])).sum();
-            let want: f64 = disk::part(&disk.gas, &eye, size, part, time, orders, samples).iter().map(|p| f64::from(p[1])).sum();
+            let want: f64 = green(&disk::part(&disk.gas, &camera, size, part, time, orders, samples));
             [got, want]
         };
         times.iter().fold([0.0; 2], |sum, &time| {
@@ -113,14 +107,11 @@ fn the_third_image_has_its_light() {
 fn thin_images_are_lines_without_a_break() {
     let size = [1280u32, 720];
     let mut renderer = renderer(size);
-    let mut config = GameConfig::default();
-    config.disk.turbulence = 0.0;
-    renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
+    renderer.set_disk(Some(disk_with(|config| config.disk.turbulence = 0.0)));
     let position = DVec3::new(0.0, -47.74, 5.02);
     let camera = static_camera(position, -position, DVec3::Z, 60f64.to_radians());
     let settings = Settings { orders: 3, ..settings() };
-    let input = FrameInput { camera, time: TIME, placed: Vec::new(), aurora: None, settings };
-    let linear = renderer.picture(&input, false).unwrap().linear;
+    let linear = shown(&mut renderer, camera, TIME, settings);
     let at = |x: f64, y: f64| f64::from(linear[(y as u32 * size[0] + x as u32) as usize][1]);
     let smooth = |x: f64, y: f64| {
         let (x, y) = (x - 0.5, y - 0.5);
@@ -146,15 +137,12 @@ fn thin_images_are_lines_without_a_break() {
 fn a_shift_of_colour_alone_leaves_the_light_of_thin_images() {
     let size = [160, 160];
     let mut renderer = renderer(size);
-    let mut config = GameConfig::default();
-    config.disk.turbulence = 0.0;
-    renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
+    renderer.set_disk(Some(disk_with(|config| config.disk.turbulence = 0.0)));
     let mut light = |doppler: bool, beaming: bool| {
         let of = |orders: u32, renderer: &mut Renderer| {
             let settings = Settings { orders, pixel_error: 100.0, doppler, beaming, ..settings() };
-            let input = FrameInput { camera: far(30.0), time: TIME, placed: Vec::new(), aurora: None, settings };
-            let luminance = |p: &[f32; 4]| f64::from(0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]);
-            renderer.picture(&input, false).unwrap().linear.iter().map(luminance).sum::<f64>()
+            let luminance = |p: &[f32; 3]| f64::from(0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]);
+            shown(renderer, far(30.0), TIME, settings).iter().map(luminance).sum::<f64>()
         };
         of(3, &mut renderer) - of(2, &mut renderer)
     };
@@ -173,12 +161,9 @@ fn gaps_take_as_much_light_as_gas() {
     {
         let mut renderer = renderer(size);
         let mut light = |gap: f64| {
-            let mut config = GameConfig::default();
-            config.disk.gap = gap;
-            renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
+            renderer.set_disk(Some(disk_with(|config| config.disk.gap = gap)));
             let camera = camera(27.0, degrees, field_of_view.to_radians());
-            let input = FrameInput { camera, time: 5.0, placed: Vec::new(), aurora: None, settings: settings() };
-            renderer.picture(&input, false).unwrap().linear.iter().map(|p| f64::from(p[1])).sum::<f64>()
+            green(&shown(&mut renderer, camera, 5.0, settings()))
         };
         let all = light(0.0);
         for gap in [0.5, 0.9] {
@@ -199,17 +184,15 @@ fn gaps_too_narrow_to_be_seen_are_closed() {
     // Gaps, arcs, their width in r_s, from where and how far the light and the picture may be off.
     // Two rings beside a gap differ by up to 0.3 in width, and so do what each has grown by and what it is thinned by.
     for (gap, arcs, width, degrees, less, off) in [(0.5, 4200, 0.4, 40.0, 0.02, 0.12), (0.9, 60, 2.0, 70.0, 0.06, 0.2)] {
-        let mut config = GameConfig::default();
-        (config.disk.gap, config.disk.arcs, config.disk.width, config.disk.turbulence) = (gap, arcs, width, 0.0);
-        let disk = Disk::new(config.disk.clone(), &config);
+        let disk =
+            disk_with(|config| (config.disk.gap, config.disk.arcs, config.disk.width, config.disk.turbulence) = (gap, arcs, width, 0.0));
         let picture = |size: [u32; 2]| {
             let mut renderer = renderer(size);
             renderer.set_disk(Some(disk.clone()));
             // The first order alone, for the others are closed at any size.
             let settings = Settings { orders: 1, pixel_error: 100.0, ..settings() };
             let camera = camera(27.0, degrees, 60f64.to_radians());
-            let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings };
-            renderer.picture(&input, false).unwrap().linear.iter().map(|p| f64::from(p[1])).collect::<Vec<f64>>()
+            shown(&mut renderer, camera, 100.0, settings).iter().map(|p| f64::from(p[1])).collect::<Vec<f64>>()
         };
         // In blocks of 4 × 4 pixels of the small one: where a line falls within a pixel is chance.
         let blocks = |picture: &[f64], size: [u32; 2]| {
