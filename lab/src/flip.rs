@@ -34,6 +34,12 @@ pub fn flip(reference: &[[f32; 3]], test: &[[f32; 3]], size: [u32; 2]) -> Vec<f3
         .collect()
 }
 
+/// The mean difference of two pictures, by [`flip`].
+pub fn mean_flip(reference: &[[f32; 3]], test: &[[f32; 3]], size: [u32; 2]) -> f64 {
+    let differences = flip(reference, test, size);
+    differences.iter().map(|difference| f64::from(*difference)).sum::<f64>() / differences.len().max(1) as f64
+}
+
 /// What of a picture is compared.
 struct Seen {
     /// CIELAB after the eye's blur, with Hunt's adjustment.
@@ -192,9 +198,8 @@ mod tests {
         vec![rgb; 32 * 24]
     }
 
-    fn mean(a: &[[f32; 3]], b: &[[f32; 3]]) -> f32 {
-        let map = flip(a, b, [32, 24]);
-        map.iter().sum::<f32>() / map.len() as f32
+    fn mean(a: &[[f32; 3]], b: &[[f32; 3]]) -> f64 {
+        mean_flip(a, b, [32, 24])
     }
 
     #[test]
@@ -211,7 +216,7 @@ mod tests {
     #[test]
     fn it_grows_with_the_difference_and_is_the_same_both_ways() {
         let base = plain([0.2, 0.2, 0.2]);
-        let values: Vec<f32> = [0.21, 0.25, 0.4, 1.0].map(|x| mean(&base, &plain([x; 3]))).to_vec();
+        let values: Vec<f64> = [0.21, 0.25, 0.4, 1.0].map(|x| mean(&base, &plain([x; 3]))).to_vec();
         assert!(values.windows(2).all(|pair| pair[0] < pair[1]), "{values:?}");
         assert!(values[0] > 0.005 && values[3] < 1.0, "{values:?}");
         assert_eq!(mean(&base, &plain([0.4; 3])), mean(&plain([0.4; 3]), &base));

@@ -1,38 +1,42 @@
 //! Whether any frame stands still, or shows what has no numbers, while hands throw the ship about: missions at several paces, a frame each 1/30 s
 //! of wall time: `lensrunner-lab chart hands`.
 
-use std::io::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use clap::Args;
 use glam::DQuat;
-
-use crate::chart::{Output, Provenance, Sheet};
-use crate::compare::flight::eye::own_ship;
-use crate::compare::flight::hands::PACES;
-use crate::frame_times::whole::draw;
-use crate::soak::SoakError;
+use lensrunner::argument::whole;
 use lensrunner::play::camera::{CameraView, on_ship, state_of};
-use lensrunner::render::gpu::targets::target;
+use lensrunner::render::Gpu;
 use lensrunner::render::settings::Settings;
-use lensrunner::render::shot::surroundings;
 use lensrunner::render::stage::{Stage, settings};
-use lensrunner::render::{Gpu, Renderer};
 use lensrunner::scene::crew::Crew;
 use lensrunner::scene::mission::Difficulty;
 use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::{History, Moment};
 
-/// What to draw.
-#[derive(Clone, Debug)]
+use crate::chart::{ChartError, Output, Sheet, quantile};
+use crate::compare::flight::eye::own_ship;
+use crate::compare::flight::hands::PACES;
+use crate::offscreen::Offscreen;
+use crate::say::say;
+
+/// Whether any frame stands still while hands throw the ship about, at five paces from 0.05 to 3: a table.
+#[derive(Args, Clone, Debug)]
 pub struct HandsRequest {
     /// Where the sheet goes.
+    #[command(flatten)]
     pub output: Output,
     /// Scenes or missions.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    #[arg(default_value = "02-first-pursuit,04-the-ghost,06-the-long-shot,09-two-of-them")]
     pub scenes: Vec<String>,
     /// Frames of all flights together.
+    #[arg(long, value_name = "N", default_value_t = 20_000, value_parser = whole::<usize>(1, 10_000_000))]
     pub frames: usize,
     /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = scene::picture_size)]
     pub size: [u32; 2],
 }
 
@@ -51,24 +55,26 @@ const WARMING: usize = 3;
 const LOOKS: usize = 40;
 
 /// Draws, writes `hands.csv` and says what came out.
-pub fn run(request: &HandsRequest, out: &mut impl Write) -> Result<Vec<PathBuf>, SoakError> {
+pub fn run(request: &HandsRequest) -> Result<Vec<PathBuf>, ChartError> {
+    let sheet = request.output.sheet("hands", || measure(request))?;
+    let worst = sheet.rows.iter().map(|row| sheet.number(row, "ratio")).fold(0.0, f64::max);
+    let failed: f64 = sheet.rows.iter().map(|row| sheet.number(row, "not_finite")).sum();
+    say(format_args!("The longest frame takes {worst:.2} times the median of its flight; {failed} results have no numbers."));
+    Ok(vec![request.output.csv("hands")])
+}
+
+fn measure(request: &HandsRequest) -> Result<Sheet, ChartError> {
     let gpu = Gpu::headless()?;
-    let mut sheet = Sheet::new(&COLUMNS);
-    sheet.notes = Provenance::now(&gpu.adapter_name()).notes();
+    let mut sheet = Sheet::measured(&COLUMNS, &gpu.adapter_name());
     let flights = request.scenes.len() * PACES.len();
     for name in &request.scenes {
         for (seed, pace) in PACES.into_iter().enumerate() {
             let row = fly(&gpu, name, pace, seed as u64, request.frames.div_ceil(flights), request.size)?;
-            _ = writeln!(out, "{}", row.join("  "));
+            say(row.join("  "));
             sheet.push(row);
         }
     }
-    let worst = sheet.rows.iter().map(|row| sheet.number(row, "ratio")).fold(0.0, f64::max);
-    let failed: f64 = sheet.rows.iter().map(|row| sheet.number(row, "not_finite")).sum();
-    _ = writeln!(out, "The longest frame takes {worst:.2} times the median of its flight; {failed} results have no numbers.");
-    let path = request.output.csv("hands");
-    sheet.save(&path)?;
-    Ok(vec![path])
+    Ok(sheet)
 }
 
 /// A frame that was drawn.
@@ -79,15 +85,13 @@ struct Drawn {
 }
 
 /// The row of one flight; where it is decided, the next begins.
-fn fly(gpu: &Gpu, name: &str, pace: f64, seed: u64, frames: usize, size: [u32; 2]) -> Result<Vec<String>, SoakError> {
+fn fly(gpu: &Gpu, name: &str, pace: f64, seed: u64, frames: usize, size: [u32; 2]) -> Result<Vec<String>, ChartError> {
     let scene = scene::load(name)?;
     let mut config = GameConfig::default();
     config.clock.pace = pace;
     let config = scene.config(&config, Difficulty::Easy);
-    let format = wgpu::TextureFormat::Rgba8UnormSrgb;
-    let (_, view) = target(&gpu.device, "hands", size, format);
-    let mut renderer = Renderer::new(gpu, &surroundings(), format, size);
-    let stage = Stage::new(&mut renderer, &scene, &config).watched();
+    let mut offscreen = Offscreen::new(gpu, size);
+    let stage = Stage::new(&mut offscreen.renderer, &scene, &config).watched();
     let own = own_ship(&scene);
     let mut drawn: Vec<Drawn> = Vec::new();
     let (mut coarse, mut not_finite, mut calmed, mut done) = (0, 0, 0, 0);
@@ -114,10 +118,9 @@ fn fly(gpu: &Gpu, name: &str, pace: f64, seed: u64, frames: usize, size: [u32; 2
             let hidden = (kind == CameraView::Cockpit).then_some(own);
             let wanted = Settings { own_ship: Some(own), ..settings(&config) };
             let began = Instant::now();
-            let frame = stage.frame(camera, size, time, &histories, hidden, &wanted);
-            draw(gpu, &mut renderer, &frame, &view)?;
+            offscreen.draw(&stage.frame(camera, size, time, &histories, hidden, &wanted))?;
             let milliseconds = began.elapsed().as_secs_f64() * 1e3;
-            let counters = renderer.counters()?;
+            let counters = offscreen.renderer.counters()?;
             done += 1;
             if done > WARMING {
                 drawn.push(Drawn { time, milliseconds, vertices: f64::from(counters.vertices + counters.split) });
@@ -133,8 +136,9 @@ fn fly(gpu: &Gpu, name: &str, pace: f64, seed: u64, frames: usize, size: [u32; 2
     }
     let longest = drawn.iter().max_by(|a, b| a.milliseconds.total_cmp(&b.milliseconds));
     let (longest, at) = longest.map_or((f64::NAN, f64::NAN), |frame| (frame.milliseconds, frame.time));
-    let median_time = median(drawn.iter().map(|frame| frame.milliseconds));
-    let vertices = drawn.iter().map(|frame| frame.vertices).fold(0.0, f64::max) / median(drawn.iter().map(|frame| frame.vertices));
+    let median_time = quantile(drawn.iter().map(|frame| frame.milliseconds), 0.5);
+    let vertices = || drawn.iter().map(|frame| frame.vertices);
+    let vertices = vertices().fold(0.0, f64::max) / quantile(vertices(), 0.5);
     Ok(vec![
         name.to_owned(),
         pace.to_string(),
@@ -148,10 +152,4 @@ fn fly(gpu: &Gpu, name: &str, pace: f64, seed: u64, frames: usize, size: [u32; 2
         not_finite.to_string(),
         calmed.to_string(),
     ])
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }

@@ -8,7 +8,7 @@
 //! - [`steps`]: what a step of the simulation costs; [`overlay_cost`]: what the dev overlay costs the processor.
 //! - [`straight`]: straight rays through trees of boxes (Sei 2008), which `bvh` measures.
 //! - [`products`]: every chart, table and picture of the documents, and whether it is up to date.
-//! - [`chart`], [`plot`]: CSV files with their provenance, and how they are drawn.
+//! - [`chart`], [`plot`]: CSV files with their provenance, and how they are drawn; [`offscreen`]: whole frames to be timed.
 //! - [`flip`]: the difference of two pictures as an eye sees it.
 
 pub mod aurora;
@@ -25,12 +25,13 @@ pub mod flip;
 pub mod frame_times;
 pub mod hands_frames;
 pub mod motion;
+pub mod offscreen;
 pub mod overlay_cost;
 pub mod plot;
 pub mod products;
 pub mod projection;
 pub mod quarry;
-mod say;
+pub mod say;
 pub mod soak;
 pub mod stability;
 pub mod steps;

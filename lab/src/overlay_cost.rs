@@ -1,10 +1,12 @@
 //! What the dev overlay costs the processor in a frame: laid out and made into triangles, without a device. A frame without it is taken
 //! beside each.
 
-use std::io::{self, Write};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use bevy_egui::egui::{Context, Pos2, RawInput, Rect, vec2};
+use clap::Args;
+use lensrunner::argument::whole;
 use lensrunner::play::overlay::frames::Frames;
 use lensrunner::play::overlay::history::{History, marks};
 use lensrunner::play::overlay::place::places;
@@ -14,35 +16,22 @@ use lensrunner::play::overlay::state::{Overlay, Passing, Seen, Tab};
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::config::section_names;
 
+use crate::chart::{ChartError, quantile};
+use crate::say::say;
+
+/// What the dev overlay costs the processor in a frame, page by page, beside a frame without it: a table.
+#[derive(Args, Clone, Debug)]
+pub struct OverlayRequest {
+    /// Frames of each page.
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = whole::<usize>(10, 1_000_000))]
+    pub frames: usize,
+}
+
 /// Frames before the first that is timed: letters are drawn and cards find their size.
 const WARM: usize = 300;
 /// Passes of a frame.
-const PASSES: [&str; 24] = [
-    "vertices",
-    "edges",
-    "triangles",
-    "refine",
-    "mesh",
-    "sky",
-    "stars",
-    "project",
-    "ends",
-    "arcs",
-    "disk mesh",
-    "draw",
-    "ranges",
-    "walk",
-    "disk",
-    "thin",
-    "compose",
-    "strokes",
-    "resolve",
-    "bloom",
-    "exposure",
-    "develop",
-    "smooth",
-    "flashes",
-];
+const PASSES: &str = "vertices edges triangles refine mesh sky stars project ends arcs disk draw ranges walk thin compose strokes resolve bloom \
+                      exposure develop smooth flashes afterwards";
 
 /// What is open in the overlay.
 struct Case {
@@ -66,7 +55,8 @@ fn cases() -> Vec<Case> {
 /// Durations of the last frames that change from frame to frame.
 fn note(frames: &mut Frames, frame: usize) {
     let wave = |k: usize| 1.0 + 0.5 * (0.1 * (frame * (k + 1)) as f64).sin();
-    let passes: Vec<(&'static str, f32)> = PASSES.iter().enumerate().map(|(k, name)| (*name, (wave(k) * k as f64) as f32 + 0.01)).collect();
+    let passes: Vec<(&'static str, f32)> =
+        PASSES.split(' ').enumerate().map(|(k, name)| (name, (wave(k) * k as f64) as f32 + 0.01)).collect();
     frames.push(40.0 * wave(0), &passes);
     frames.overlay.push(0.5 * wave(1));
 }
@@ -99,31 +89,27 @@ impl Run {
     }
 }
 
-/// Times `count` frames of each case, all cases in turn, and writes a table in ms.
-pub fn run(count: usize, out: &mut dyn Write) -> io::Result<()> {
+/// Times the frames of each case, all cases in turn, and says a table in ms.
+pub fn run(request: &OverlayRequest) -> Result<Vec<PathBuf>, ChartError> {
     let mut config = GameConfig::default();
     (config.render.bloom, config.disk.arcs) = (0.5, 900);
     let (begun, quality) = (GameConfig::default(), QualityReport::default());
     let marks = marks(&config, &begun, &History::default());
     let mut frames = Frames::default();
     let mut runs: Vec<Run> = cases().into_iter().map(|case| Run { case, context: Context::default(), times: Vec::new() }).collect();
-    for frame in 0..WARM + count {
+    for frame in 0..WARM + request.frames {
         note(&mut frames, frame);
         let passing = Passing { now: frame as f64, step: 1.0 / 32.0, end: Some(400.0), ..Passing::default() };
         let seen = Seen { config: &config, marks: &marks, frames: &frames, counters: None, disk: None, quality: &quality, passing };
         runs.iter_mut().for_each(|run| run.frame(&seen, frame));
     }
-    writeln!(out, "| the overlay at 1280x720, {count} frames each | laid out, median | with triangles, median | 99 of 100 under |")?;
-    writeln!(out, "|---|---|---|---|")?;
+    say(format_args!(
+        "| the overlay at 1280x720, {} frames each | laid out, median | with triangles, median | 99 of 100 under |\n|---|---|---|---|",
+        request.frames
+    ));
     for Run { case, times, .. } in runs {
-        let sorted = |which: usize| {
-            let mut all: Vec<f64> = times.iter().map(|pair| pair[which]).collect();
-            all.sort_by(f64::total_cmp);
-            all
-        };
-        let at = |all: &[f64], share: f64| all.get((all.len() as f64 * share) as usize).copied().unwrap_or(0.0);
-        let (laid_out, whole) = (sorted(0), sorted(1));
-        writeln!(out, "| {} | {:.3} | {:.3} | {:.3} |", case.name, at(&laid_out, 0.5), at(&whole, 0.5), at(&whole, 0.99))?;
+        let at = |which: usize, share: f64| quantile(times.iter().map(|pair| pair[which]), share);
+        say(format_args!("| {} | {:.3} | {:.3} | {:.3} |", case.name, at(0, 0.5), at(1, 0.5), at(1, 0.99)));
     }
-    Ok(())
+    Ok(Vec::new())
 }

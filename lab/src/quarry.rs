@@ -1,17 +1,36 @@
 //! How long a quarry lasts: the game's own pilot beside two that know nothing, each hunted by the same autopilot from the same start.
 
-use std::io::{self, Write};
+use std::path::PathBuf;
 
+use clap::Args;
 use glam::DVec3;
-use lensrunner::scene::{Difficulty, GameConfig, Scene};
+use lensrunner::argument::whole;
+use lensrunner::scene::{self, Difficulty, GameConfig, Scene};
 use lensrunner::sim::ship::{Controls, Engine, Fleet, Manual, ShipMotion};
 use lensrunner::sim::{Clock, Command, app_of, outcome, step};
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 use rayon::prelude::*;
 
+use crate::chart::ChartError;
+use crate::say::say;
+
+/// How long the quarry lasts, flown by the game's pilot, straight away, and at random, before the same hunter: a table.
+#[derive(Args, Clone, Debug)]
+pub struct QuarryRequest {
+    /// A scene or mission whose first ship hunts the second.
+    #[arg(long, value_name = "NAME|FILE", default_value = "02-first-pursuit")]
+    pub scene: String,
+    /// Chases of each kind.
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = whole::<u64>(1, 1_000_000))]
+    pub seeds: u64,
+}
+
+/// T at which a chase ends undecided, in r_s/c.
+const LIMIT: f64 = 270.0;
+
 /// Who flies the quarry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Flees {
+enum Flees {
     /// The game's pilot.
     Pilot,
     /// Full thrust straight away from the hunter.
@@ -22,33 +41,33 @@ pub enum Flees {
 
 impl Flees {
     /// All of them.
-    pub const ALL: [Flees; 3] = [Flees::Pilot, Flees::Straight, Flees::Random];
+    const ALL: [Flees; 3] = [Flees::Pilot, Flees::Straight, Flees::Random];
 
     /// As the table writes it.
-    pub fn name(self) -> &'static str {
+    fn name(self) -> &'static str {
         ["the game's pilot", "straight away", "random"][self as usize]
     }
 }
 
 /// T between two directions of a random quarry, in r_s/c: the game's replanning period.
-pub const PERIOD: f64 = 2.5;
+const PERIOD: f64 = 2.5;
 
 /// The arena may be left by this factor: its edge is where pilots turn back.
 const LEEWAY: f64 = 1.1;
 
 /// One chase.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Chased {
+struct Chased {
     /// T at the end, in r_s/c.
-    pub time: f64,
+    time: f64,
     /// The quarry was caught, fell in, or left the arena.
-    pub lost: bool,
+    lost: bool,
     /// It fell into the hole.
-    pub fell: bool,
+    fell: bool,
     /// Its least distance from the hole, in r_s.
-    pub least: f64,
+    least: f64,
     /// The hunter came near it shortly before the end.
-    pub cornered: bool,
+    cornered: bool,
 }
 
 /// A hunter so near, in r_s, leaves no other way.
@@ -64,8 +83,8 @@ struct Blind {
     until: f64,
 }
 
-/// Flies one chase of a scene whose first ship hunts the second, until T = `limit`.
-pub fn chase(scene: &Scene, config: &GameConfig, seed: u64, how: Flees, limit: f64) -> Chased {
+/// Flies one chase of a scene whose first ship hunts the second, until T = [`LIMIT`].
+fn chase(scene: &Scene, config: &GameConfig, seed: u64, how: Flees) -> Chased {
     let mut app = app_of(scene, config, seed);
     let fleet = app.world().resource::<Fleet>().0.clone();
     let (hunter, quarry) = (fleet[0], fleet[1]);
@@ -94,13 +113,13 @@ pub fn chase(scene: &Scene, config: &GameConfig, seed: u64, how: Flees, limit: f
         }
         let cornered = time - near_at < LATE;
         if let Some((_, decided)) = outcome(world) {
-            return Chased { time: decided, lost: decided < limit, fell: r < 1.0, least, cornered };
+            return Chased { time: decided, lost: decided < LIMIT, fell: r < 1.0, least, cornered };
         }
         // The chase is held within the arena: who leaves it has given up.
         if r > arena {
             return Chased { time, lost: true, fell: false, least, cornered };
         }
-        if time >= limit {
+        if time >= LIMIT {
             return Chased { time, lost: false, fell: r < 1.0, least, cornered };
         }
     }
@@ -121,20 +140,24 @@ impl Blind {
     }
 }
 
-/// Flies `seeds` chases of each difficulty and each way to flee, and writes how long the quarry lasts.
-pub fn run(scene: &Scene, config: &GameConfig, seeds: u64, limit: f64, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "| difficulty | quarry | mean time | lost | fell in | not cornered | least r |\n|---|---|---|---|---|---|---|")?;
+/// Flies the chases of each difficulty and each way to flee, and says how long the quarry lasts.
+pub fn run(request: &QuarryRequest) -> Result<Vec<PathBuf>, ChartError> {
+    let (config, scene) = (scene::config::find(None)?, scene::load(&request.scene)?);
+    if scene.ships.len() < 2 {
+        return Err(ChartError::Input(format!("{}: it needs two ships, the first to hunt the second", request.scene)));
+    }
+    say("| difficulty | quarry | mean time | lost | fell in | not cornered | least r |\n|---|---|---|---|---|---|---|");
+    let seeds = request.seeds;
     for difficulty in Difficulty::ALL {
-        let config = scene.config(config, difficulty);
+        let config = scene.config(&config, difficulty);
         for how in Flees::ALL {
-            let all: Vec<Chased> = (0..seeds).into_par_iter().map(|seed| chase(scene, &config, seed, how, limit)).collect();
-            let count = all.len().max(1) as f64;
-            let mean = all.iter().map(|chase| chase.time).sum::<f64>() / count;
+            let all: Vec<Chased> = (0..seeds).into_par_iter().map(|seed| chase(&scene, &config, seed, how)).collect();
+            let mean = all.iter().map(|chase| chase.time).sum::<f64>() / all.len().max(1) as f64;
             let [lost, fell, free] = [|c: &Chased| c.lost, |c: &Chased| c.fell, |c: &Chased| c.fell && !c.cornered]
                 .map(|is| all.iter().filter(|c| is(c)).count());
             let least = all.iter().map(|chase| chase.least).fold(f64::INFINITY, f64::min);
-            writeln!(out, "| {difficulty} | {} | {mean:.1} r_s/c | {lost} of {seeds} | {fell} | {free} | {least:.2} r_s |", how.name())?;
+            say(format_args!("| {difficulty} | {} | {mean:.1} r_s/c | {lost} of {seeds} | {fell} | {free} | {least:.2} r_s |", how.name()));
         }
     }
-    Ok(())
+    Ok(Vec::new())
 }

@@ -1,54 +1,39 @@
 //! Whether memory grows: a long flight without graphics, then many frames of many scenes on every rung of the picture's quality, with the
-//! resident memory of the process after each tenth: `lensrunner-lab soak`.
+//! resident memory of the process after each tenth: `lensrunner-lab chart soak`.
 
-use std::io::Write;
 use std::path::PathBuf;
 
 use bevy::app::FixedUpdate;
 use bevy::ecs::message::Messages;
-use lensrunner::render::gpu::readback::PictureError;
-use lensrunner::render::gpu::targets::target;
+use clap::Args;
+use lensrunner::argument::whole;
+use lensrunner::render::Gpu;
 use lensrunner::render::quality::knobs::turned;
 use lensrunner::render::quality::ladder::ladder;
 use lensrunner::render::quality::prices::Prices;
-use lensrunner::render::shot::{Moment, surroundings};
+use lensrunner::render::shot::Moment;
 use lensrunner::render::stage::{Stage, settings};
-use lensrunner::render::{DeviceError, Gpu, Renderer};
 use lensrunner::scene::crew::Crew;
-use lensrunner::scene::{self, GameConfig, SceneError};
+use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::{History, SimEvent, app_of};
-use thiserror::Error;
 
-use crate::chart::{Output, Provenance, Sheet, SheetError};
+use crate::chart::{ChartError, Output, Sheet};
 use crate::dial::moments::class_of;
-use crate::frame_times::whole::draw;
+use crate::offscreen::Offscreen;
+use crate::say::say;
 
-/// How long.
-#[derive(Clone, Debug)]
+/// Whether memory grows over a long flight and many frames: a table.
+#[derive(Args, Clone, Debug)]
 pub struct SoakRequest {
     /// Where the sheet goes.
+    #[command(flatten)]
     pub output: Output,
     /// Steps of the simulation.
+    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = whole::<u64>(10, 100_000_000))]
     pub steps: u64,
     /// Frames.
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = whole::<u64>(10, 10_000_000))]
     pub frames: u64,
-}
-
-/// Why there is no answer, here or from frames of hands.
-#[derive(Debug, Error)]
-pub enum SoakError {
-    /// A scene is wrong.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// There is nothing to draw with.
-    #[error(transparent)]
-    Device(#[from] DeviceError),
-    /// No picture.
-    #[error(transparent)]
-    Picture(#[from] PictureError),
-    /// The sheet.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
 }
 
 /// Columns of the sheet.
@@ -75,28 +60,28 @@ fn resident() -> Option<f64> {
     Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? / 1024.0)
 }
 
-fn note(sheet: &mut Sheet, what: &str, done: u64, out: &mut impl Write) {
+fn note(sheet: &mut Sheet, what: &str, done: u64) {
     let memory = resident().unwrap_or(f64::NAN);
-    _ = writeln!(out, "{done} {what}: {memory:.1} MiB");
+    say(format_args!("{done} {what}: {memory:.1} MiB"));
     sheet.push([what.to_owned(), done.to_string(), format!("{memory:.1}")]);
 }
 
 /// Runs both, writes `soak.csv` and says what came out.
-pub fn run(request: &SoakRequest, out: &mut impl Write) -> Result<Vec<PathBuf>, SoakError> {
-    let gpu = Gpu::headless()?;
-    let mut sheet = Sheet::new(&COLUMNS);
-    sheet.notes = Provenance::now(&gpu.adapter_name()).notes();
-    fly(request.steps, &mut sheet, out)?;
-    show(&gpu, request.frames, &mut sheet, out)?;
-    for what in ["steps", "frames"] {
-        _ = writeln!(out, "{}", verdict(&sheet, what));
-    }
-    let path = request.output.csv("soak");
-    sheet.save(&path)?;
-    Ok(vec![path])
+pub fn run(request: &SoakRequest) -> Result<Vec<PathBuf>, ChartError> {
+    let sheet = request.output.sheet("soak", || measure(request))?;
+    ["steps", "frames"].iter().for_each(|what| say(verdict(&sheet, what)));
+    Ok(vec![request.output.csv("soak")])
 }
 
-fn fly(steps: u64, sheet: &mut Sheet, out: &mut impl Write) -> Result<(), SoakError> {
+fn measure(request: &SoakRequest) -> Result<Sheet, ChartError> {
+    let gpu = Gpu::headless()?;
+    let mut sheet = Sheet::measured(&COLUMNS, &gpu.adapter_name());
+    fly(request.steps, &mut sheet)?;
+    show(&gpu, request.frames, &mut sheet)?;
+    Ok(sheet)
+}
+
+fn fly(steps: u64, sheet: &mut Sheet) -> Result<(), ChartError> {
     let config = GameConfig::default();
     let mut app = app_of(&scene::load(FLIGHT)?, &config, 1);
     let world = app.world_mut();
@@ -108,21 +93,19 @@ fn fly(steps: u64, sheet: &mut Sheet, out: &mut impl Write) -> Result<(), SoakEr
         world.clear_trackers();
         world.resource_mut::<Messages<SimEvent>>().clear();
         if step % (steps / PARTS).max(1) == 0 {
-            note(sheet, "steps", step, out);
+            note(sheet, "steps", step);
         }
     }
     Ok(())
 }
 
-fn show(gpu: &Gpu, frames: u64, sheet: &mut Sheet, out: &mut impl Write) -> Result<(), SoakError> {
+fn show(gpu: &Gpu, frames: u64, sheet: &mut Sheet) -> Result<(), ChartError> {
     let config = GameConfig::default();
-    let format = wgpu::TextureFormat::Rgba8UnormSrgb;
-    let (_, view) = target(&gpu.device, "soak", SIZE, format);
-    let mut renderer = Renderer::new(gpu, &surroundings(), format, SIZE);
+    let mut offscreen = Offscreen::new(gpu, SIZE);
     let mut done = 0;
     for round in 0.. {
         let scene = scene::load(SCENES[round % SCENES.len()])?;
-        let stage = Stage::new(&mut renderer, &scene, &config);
+        let stage = Stage::new(&mut offscreen.renderer, &scene, &config);
         // By hands, who throw the ship about.
         let mut moment = Moment::with_crew(&scene, &config, 1, Crew::Hands);
         moment.advance((AT / config.clock.step).round() as u64);
@@ -133,10 +116,10 @@ fn show(gpu: &Gpu, frames: u64, sheet: &mut Sheet, out: &mut impl Write) -> Resu
             }
             let camera = stage.camera(moment.time(), &moment.ships());
             let settings = turned(&settings(&config), &rungs[done as usize % rungs.len()].steps);
-            draw(gpu, &mut renderer, &stage.frame(camera, SIZE, moment.time(), &moment.histories(), None, &settings), &view)?;
+            offscreen.draw(&stage.frame(camera, SIZE, moment.time(), &moment.histories(), None, &settings))?;
             done += 1;
             if done % (frames / PARTS).max(1) == 0 {
-                note(sheet, "frames", done, out);
+                note(sheet, "frames", done);
             }
             if done >= frames {
                 return Ok(());

@@ -56,10 +56,10 @@ pub struct CompareArgs {
     #[arg(long, value_name = "NAME", default_value_t, requires = "flight", conflicts_with = "scene")]
     pilot: Crew,
     /// How many chases --flight flies.
-    #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = whole::<u64>(1, 1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = whole::<u64>(1, 100_000))]
     seeds: u64,
     /// At how many moments --flight judges each chase.
-    #[arg(long, value_name = "N", default_value_t = 200, allow_negative_numbers = true, value_parser = whole::<usize>(1, 1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 200, allow_negative_numbers = true, value_parser = whole::<usize>(1, 100_000))]
     moments: usize,
     /// Leaves what fails as it was drawn, instead of making it smaller for as long as it fails, which takes up to three minutes a case.
     #[arg(long, conflicts_with = "scene")]
@@ -107,30 +107,22 @@ pub fn run(args: &CompareArgs) -> ExitCode {
     let terms = Terms { seconds: args.limit.unwrap_or(usual.seconds), tolerance: args.tolerance.unwrap_or(usual.tolerance), ..usual };
     let reduce = !args.whole;
     let failed = |rows: Vec<random::outcome::Row>| rows.iter().any(|row| row.failed());
+    let many = |folder: &str| random::command::Run {
+        terms,
+        config: args.config.clone(),
+        output: args.output.clone().unwrap_or_else(|| PathBuf::from(folder)),
+        reduce,
+        collected: args.collect.clone(),
+    };
     let judged = if let Some(count) = args.random {
-        let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out/random"));
-        let collected = args.collect.clone();
-        let request = random::command::RandomRequest {
-            count,
-            seed: args.seed,
-            first: args.first,
-            terms,
-            config: args.config.clone(),
-            output,
-            reduce,
-            collected,
-        };
-        random::command::run(&request, &draw).map(failed)
+        random::command::run(args.seed, args.first, count, &many("out/random"), &draw).map(failed)
     } else if !args.case.is_empty() {
         let keep = args.output.as_deref().map(|folder| random::command::Keep { folder, reduce });
         random::command::run_files(&args.case, config, &terms, keep, &draw).map(failed)
     } else if let Some(scene) = args.flight.clone() {
-        let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out/flight"));
-        let (size, config, collected) = (args.size.unwrap_or(random::case_file::SIZE), args.config.clone(), args.collect.clone());
-        let (seeds, first, moments, at) = (args.seeds, args.first, args.moments, args.at);
-        let pilot = args.pilot;
-        let request =
-            flight::command::FlightRequest { scene, pilot, seeds, first, moments, at, size, terms, config, output, reduce, collected };
+        let (pilot, seeds, first, moments, at) = (args.pilot, args.seeds, args.first, args.moments, args.at);
+        let (size, run) = (args.size.unwrap_or(random::case_file::SIZE), many("out/flight"));
+        let request = flight::command::FlightRequest { scene, pilot, seeds, first, moments, at, size, run };
         flight::command::run(&request, &draw, &|case: &Case| contestant.show(case)).map(failed)
     } else if let Some(from) = &moment_of(args.scene.as_deref(), args.from.as_deref()) {
         if args.at.is_some() || args.config.is_some() || args.table.is_some() {

@@ -85,13 +85,8 @@ fn one_scene(sheet: &Sheet, scene: &str) -> Panel {
         "balls4A" => " and 4.17",
         _ => "",
     };
-    let line = |(i, (method, name)): (usize, (&str, &str))| Line {
-        name: name.into(),
-        points: curve(sheet, scene, method),
-        dots: true,
-        color: Some(i),
-        ..Line::default()
-    };
+    let line =
+        |(method, name): (&str, &str)| Line { name: name.into(), points: curve(sheet, scene, method), dots: true, ..Line::default() };
     let methods = [("Wald", "fixed"), ("split 4", "split in 4"), ("split 16", "split in 16"), ("ours", "ours")];
     let guides = ["obvhs", "Embree"]
         .map(|method| Guide { at: 1e3 / speed(sheet, scene, method, "primary", 1, "Mrays_per_s"), label: format!("{method} single") })
@@ -102,7 +97,7 @@ fn one_scene(sheet: &Sheet, scene: &str) -> Panel {
         title: figure.map_or(scene.into(), |figure| format!("{scene}{figure}{also})")),
         x: sizes(),
         y: Axis::log("ms for a million rays"),
-        lines: methods.into_iter().enumerate().map(line).collect(),
+        lines: methods.into_iter().map(line).collect(),
         guides,
         ..Lines::default()
     })

@@ -2,25 +2,31 @@
 //!
 //! A chart measures into a [`Sheet`], writes it as CSV, and draws from the sheet alone, so `--redraw` needs no new timing.
 
+pub mod error;
 pub mod provenance;
 pub mod sheet;
 pub mod timing;
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
+
+pub use error::ChartError;
 pub use provenance::Provenance;
 pub use sheet::{Sheet, SheetError};
-pub use timing::{Timing, interleaved, interleaved_by, thread_time, times_the_first};
+pub use timing::{Timing, interleaved, interleaved_by, quantile, thread_time, times_the_first};
 
 /// Where charts go unless said otherwise.
 pub const DEFAULT_FOLDER: &str = "out/charts";
 
-/// What every chart is asked for.
-#[derive(Clone, Debug)]
+/// Where a chart goes.
+#[derive(Args, Clone, Debug)]
 pub struct Output {
     /// The folder for CSV, SVG and PNG.
+    #[arg(short = 'o', id = "output", value_name = "DIR", default_value = DEFAULT_FOLDER)]
     pub folder: PathBuf,
-    /// Draws from the CSV that lies in the folder instead of measuring.
+    /// Draws again from the CSV in that folder, without measuring.
+    #[arg(long)]
     pub redraw: bool,
 }
 

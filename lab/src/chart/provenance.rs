@@ -2,11 +2,14 @@
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use serde::{Deserialize, Serialize};
+
 /// The name of each note, in the order of the lines under a chart.
 const NOTES: [&str; 5] = ["processor", "adapter", "date", "commit", "command"];
 
 /// Where numbers come from.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(default)]
 pub struct Provenance {
     /// The processor and how many of it.
     pub processor: String,
@@ -17,6 +20,7 @@ pub struct Provenance {
     /// The commit of the sources; empty where git does not know.
     pub commit: String,
     /// The command that does it again.
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub command: String,
 }
 

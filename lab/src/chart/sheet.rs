@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use super::Provenance;
+
 /// Rows of text under named columns. A cell with a comma or a quotation mark is written in quotation marks (RFC 4180); line breaks become
 /// blanks.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -52,6 +54,11 @@ impl Sheet {
         Sheet { notes: Vec::new(), columns: columns.iter().map(|c| (*c).to_owned()).collect(), rows: Vec::new() }
     }
 
+    /// An empty sheet that says what it is measured on: this machine, now, and `adapter`, which may be empty.
+    pub fn measured(columns: &[&str], adapter: &str) -> Sheet {
+        Sheet { notes: Provenance::now(adapter).notes(), ..Sheet::new(columns) }
+    }
+
     /// Adds a row.
     pub fn push<S: ToString>(&mut self, cells: impl IntoIterator<Item = S>) {
         self.rows.push(cells.into_iter().map(|cell| cell.to_string()).collect());
@@ -75,6 +82,17 @@ impl Sheet {
     /// The number in a row's column; NaN where there is none.
     pub fn number(&self, row: &[String], name: &str) -> f64 {
         self.text(row, name).trim().parse().unwrap_or(f64::NAN)
+    }
+
+    /// The texts of a column, each once, in the order in which they come.
+    pub fn distinct(&self, name: &str) -> Vec<&str> {
+        let mut found: Vec<&str> = Vec::new();
+        for text in self.rows.iter().map(|row| self.text(row, name)) {
+            if !found.contains(&text) {
+                found.push(text);
+            }
+        }
+        found
     }
 
     /// The sheet as CSV.

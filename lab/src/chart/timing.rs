@@ -25,6 +25,16 @@ impl Timing {
     }
 }
 
+/// The value that the share `q` of `values` does not exceed, interpolated between neighbours; NaN of none.
+pub fn quantile(values: impl IntoIterator<Item = f64>, q: f64) -> f64 {
+    let mut sorted: Vec<f64> = values.into_iter().collect();
+    sorted.sort_by(f64::total_cmp);
+    let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
+    let at = q * last as f64;
+    let (below, share) = (at as usize, at.fract());
+    if share > 0.0 { sorted[below] + share * (sorted[below + 1] - sorted[below]) } else { sorted[below] }
+}
+
 /// Times every contestant `rounds` times, one after another in each round, so that whatever else the machine does falls on all of
 /// them alike; one more round before is thrown away. Each runs on the calling thread.
 pub fn interleaved(contestants: &mut [&mut dyn FnMut()], rounds: usize) -> Vec<Timing> {

@@ -6,8 +6,8 @@ use lensrunner::render::quality::prices::{Prices, SceneClass};
 use rand::RngExt;
 
 use super::moments::{begin, case, scenes};
-use super::{DialError, DialRequest};
-use crate::chart::{Sheet, SheetError};
+use super::{DialRequest, Keep, empty};
+use crate::chart::{ChartError, Sheet};
 
 /// Columns of the sheet.
 pub const COLUMNS: [&str; 9] =
@@ -18,20 +18,16 @@ const FACTOR: f64 = 4.0;
 const TIME: f64 = 0.25;
 
 /// Measures `moments` moments, all classes in turn; `keep` gets the rows after each.
-pub fn measure(
-    request: &DialRequest,
-    mut said: impl FnMut(String),
-    keep: &dyn Fn(&Sheet) -> Result<(), SheetError>,
-) -> Result<Sheet, DialError> {
+pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
     let (mut bench, mut sheet, mut rng) = begin(request, &COLUMNS)?;
-    let classes: Vec<_> = SceneClass::ALL.into_iter().map(|class| Ok((class, scenes(class)?))).collect::<Result<_, DialError>>()?;
+    let classes: Vec<_> = SceneClass::ALL.into_iter().map(|class| Ok((class, scenes(class)?))).collect::<Result<_, ChartError>>()?;
     for number in 0..request.moments {
         let (class, scenes) = &classes[number % classes.len()];
         let rungs = ladder(Prices::shipped(), *class);
-        let case = case(scenes, &mut rng).ok_or(DialError::Empty(class.name()))?;
+        let case = case(scenes, &mut rng).ok_or_else(|| empty(class.name()))?;
         let place = rng.random_range(1..rungs.len().max(2));
         let Some(rung) = rungs.get(place) else { continue };
-        said(format!("{}/{}: {} at T = {}, rung {}", number + 1, request.moments, case.scene, case.at, place + 1));
+        eprintln!("{}/{}: {} at T = {}, rung {}", number + 1, request.moments, case.scene, case.at, place + 1);
         let shown = bench.show(&case)?;
         let finest = bench.take(&shown, &shown.finest)?;
         bench.warm(&shown)?;

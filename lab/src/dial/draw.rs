@@ -6,14 +6,13 @@ use lensrunner::play::picture::quality::{LOW, MEDIUM};
 use lensrunner::render::quality::ladder::ladder;
 use lensrunner::render::quality::prices::{Prices, SceneClass};
 
-use super::DialError;
 use super::check::verdict;
 use super::levels;
-use crate::chart::{Output, Provenance, Sheet};
+use crate::chart::{ChartError, Output, Provenance, Sheet};
 use crate::plot::{Axis, Figure, Guide, Line, Lines, Panel, Point, Scatter};
 
 /// Draws `dial.svg` and `dial.png`; `checked` is the sheet of the check.
-pub fn draw(prices: &Prices, checked: &Sheet, output: &Output) -> Result<[PathBuf; 2], DialError> {
+pub fn draw(prices: &Prices, checked: &Sheet, output: &Output) -> Result<[PathBuf; 2], ChartError> {
     let front = SceneClass::ALL.map(|class| Line {
         name: class.name().to_owned(),
         points: ladder(prices, class).iter().skip(1).map(|rung| [100.0 * rung.time, rung.error]).collect(),
@@ -36,7 +35,7 @@ pub fn draw(prices: &Prices, checked: &Sheet, output: &Output) -> Result<[PathBu
                 y: Axis::log("predicted error, mean FLIP"),
                 lines: front.to_vec(),
                 guides: guides.to_vec(),
-                guides_x: Vec::new(),
+                ..Lines::default()
             }),
             Panel::Scatter(Scatter {
                 title: "moments nobody chose (red: above the prediction)".into(),
@@ -56,7 +55,7 @@ pub fn draw(prices: &Prices, checked: &Sheet, output: &Output) -> Result<[PathBu
 }
 
 /// Draws `dial-levels.svg` and `dial-levels.png`: the front of each scene, from everything at its finest down.
-pub fn draw_levels(measured: &Sheet, output: &Output) -> Result<[PathBuf; 2], DialError> {
+pub fn draw_levels(measured: &Sheet, output: &Output) -> Result<[PathBuf; 2], ChartError> {
     let fronts = levels::SCENES.map(|scene| Line {
         name: scene.to_owned(),
         points: levels::LEVELS
@@ -75,8 +74,7 @@ pub fn draw_levels(measured: &Sheet, output: &Output) -> Result<[PathBuf; 2], Di
             x: Axis::linear("share of the time of everything at its finest, %").between(0.0, 110.0),
             y: Axis::log("error from everything at its finest, mean FLIP"),
             lines: fronts.to_vec(),
-            guides: Vec::new(),
-            guides_x: Vec::new(),
+            ..Lines::default()
         })],
         columns: 1,
         size: [900, 640],

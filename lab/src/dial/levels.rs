@@ -8,8 +8,8 @@ use lensrunner::render::settings::Settings;
 use lensrunner::scene;
 
 use super::moments::{Case, begin, class_of};
-use super::{DialError, DialRequest};
-use crate::chart::{Sheet, SheetError};
+use super::{DialRequest, Keep};
+use crate::chart::{ChartError, Sheet};
 
 /// Columns of the sheet.
 pub const COLUMNS: [&str; 8] = ["class", "scene", "T", "level", "rung", "FLIP", "ms", "everything, ms"];
@@ -42,18 +42,14 @@ fn rung_of(level: &str, rungs: &[Rung]) -> usize {
 }
 
 /// Measures every level at `moments` moments of a scene of each class; `keep` gets the rows after each moment.
-pub fn measure(
-    request: &DialRequest,
-    mut said: impl FnMut(String),
-    keep: &dyn Fn(&Sheet) -> Result<(), SheetError>,
-) -> Result<Sheet, DialError> {
+pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
     let (mut bench, mut sheet, _) = begin(request, &COLUMNS)?;
     for number in 0..request.moments {
         for scene in SCENES {
             let class = class_of(&scene::load(scene)?);
             let rungs = ladder(Prices::shipped(), class);
-            let case = Case { scene: scene.to_owned(), at: number as f64 * STEP, seed: request.seed, turn: [0.0; 2] };
-            said(format!("{}/{}: {scene} at T = {}", number + 1, request.moments, case.at));
+            let case = Case { scene: scene.to_owned(), at: number as f64 * STEP, seed: request.seed(), turn: [0.0; 2] };
+            eprintln!("{}/{}: {scene} at T = {}", number + 1, request.moments, case.at);
             let shown = bench.show(&case)?;
             let whole = everything(&shown.finest);
             let finest = bench.take(&shown, &whole)?;

@@ -16,54 +16,79 @@ pub mod moments;
 pub mod moving;
 pub mod prices;
 
-use thiserror::Error;
+use std::path::PathBuf;
+use std::time::{SystemTime, UNIX_EPOCH};
 
-use crate::chart::SheetError;
-use crate::plot::PlotError;
-use lensrunner::render::DeviceError;
-use lensrunner::render::gpu::readback::PictureError;
-use lensrunner::render::quality::prices::PricesError;
-use lensrunner::scene::SceneError;
+use clap::Args;
+use lensrunner::argument::whole;
+use lensrunner::render::quality::prices::Prices;
+use lensrunner::scene::picture_size;
 
-/// What to measure.
-#[derive(Clone, Debug)]
+use crate::chart::{ChartError, Output};
+use crate::say::say;
+
+/// What each knob of the picture's quality costs and saves: the price list that the game reads (quality.csv); with --check whether the
+/// predictions from the game's own list hold, and the chart.
+#[derive(Args, Clone, Debug)]
 pub struct DialRequest {
-    /// Moments of each class, or of all together for a check.
+    /// Where it goes.
+    #[command(flatten)]
+    pub output: Output,
+    /// Moments of each class of scenes; with --check moments in all.
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = whole::<usize>(1, 100_000))]
     pub moments: usize,
-    /// Seed of the moments.
-    pub seed: u64,
+    /// Seed of the moments; with --check another each time unless it is given.
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
     /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = picture_size)]
     pub size: [u32; 2],
+    /// Compares predictions with measurements, at moments and rungs at random.
+    #[arg(long)]
+    pub check: bool,
+    /// Measures the levels high, medium, low and the fastest beside everything at its finest, at moments of the chase and three scenes.
+    #[arg(long, conflicts_with = "check")]
+    pub levels: bool,
+    /// Compares each frame of four scenes with the one before, with the rungs that a governor goes through and without; --moments frames.
+    #[arg(long, conflicts_with_all = ["check", "levels"])]
+    pub moving: bool,
 }
 
-/// Why there is no chart.
-#[derive(Debug, Error)]
-pub enum DialError {
-    /// There is nothing to draw with.
-    #[error(transparent)]
-    Device(#[from] DeviceError),
-    /// A scene is wrong.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// No picture.
-    #[error(transparent)]
-    Picture(#[from] PictureError),
-    /// The measured prices do not make a table.
-    #[error(transparent)]
-    Prices(#[from] PricesError),
-    /// A table cannot be read or written.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
-    /// The chart cannot be written.
-    #[error(transparent)]
-    Plot(#[from] PlotError),
-    /// No scene has a moment of this class.
-    #[error("no scene of the class {0} has a moment with a camera outside of r = 1.2 r_s")]
-    Empty(&'static str),
+impl DialRequest {
+    fn seed(&self) -> u64 {
+        let fresh = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.subsec_nanos().into());
+        self.seed.unwrap_or_else(|| if self.check { fresh() } else { 1 })
+    }
 }
 
-/// The value that the share `q` of `values` does not exceed.
-pub(crate) fn quantile(values: &mut [f64], q: f64) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(((values.len().max(1) - 1) as f64 * q).round() as usize).copied().unwrap_or(f64::NAN)
+/// Measures (or reads) what is asked for, says what came out, and draws; returns the files written.
+pub fn run(request: &DialRequest) -> Result<Vec<PathBuf>, ChartError> {
+    let output = &request.output;
+    if request.levels {
+        let sheet = output.growing_sheet("dial-levels", |keep| levels::measure(request, keep))?;
+        say(levels::verdict(&sheet));
+        return Ok(draw::draw_levels(&sheet, output)?.to_vec());
+    }
+    if request.moving {
+        let sheet = output.growing_sheet("dial-moving", |keep| moving::measure(request, keep))?;
+        say(moving::verdict(&sheet));
+        return Ok(vec![output.csv("dial-moving")]);
+    }
+    if request.check {
+        let sheet = output.growing_sheet("dial-check", |keep| check::measure(request, keep))?;
+        say(check::verdict(&sheet));
+        return Ok(draw::draw(Prices::shipped(), &sheet, output)?.to_vec());
+    }
+    let sheet = output.growing_sheet("dial", |keep| prices::measure(request, keep))?;
+    let file = output.csv("quality");
+    std::fs::write(&file, prices::table(&sheet)?).map_err(|error| ChartError::Write(file.clone(), error.to_string()))?;
+    Ok(vec![file])
+}
+
+/// What writes the rows that there are so far.
+pub(crate) type Keep<'a> = &'a dyn Fn(&crate::chart::Sheet) -> Result<(), crate::chart::SheetError>;
+
+/// No scene has a moment of this class.
+pub(crate) fn empty(class: &str) -> ChartError {
+    ChartError::Failed(format!("no scene of the class {class} has a moment with a camera outside of r = 1.2 r_s"))
 }

@@ -4,23 +4,21 @@ use std::f64::consts::PI;
 use std::time::Instant;
 
 use glam::DQuat;
-use lensrunner::render::gpu::targets::target;
+use lensrunner::render::Gpu;
 use lensrunner::render::quality::prices::SceneClass;
 use lensrunner::render::settings::Settings;
-use lensrunner::render::shot::{Moment, surroundings};
+use lensrunner::render::shot::Moment;
 use lensrunner::render::stage::{Stage, settings};
-use lensrunner::render::{Gpu, Renderer};
 use lensrunner::scene::planet::AuroraShape;
 use lensrunner::scene::{self, GameConfig, Scene};
 use lensrunner::spacetime::Observer;
 use rand::rngs::SmallRng;
 use rand::{Rng, RngExt, SeedableRng};
 
-use super::{DialError, DialRequest};
-use crate::chart::{Provenance, Sheet};
-use crate::flip::flip;
-use crate::frame_times::processor_time;
-use crate::frame_times::whole::draw;
+use super::DialRequest;
+use crate::chart::{ChartError, Sheet};
+use crate::flip::mean_flip;
+use crate::offscreen::{Offscreen, processor_time};
 
 /// Latest time of a moment, in r_s/c.
 const LATEST: f64 = 40.0;
@@ -36,12 +34,12 @@ const WARM: usize = 3;
 const TRIES: usize = 200;
 
 /// The renderer, a sheet with these columns that says where it comes from, and the numbers at random.
-pub(super) fn begin(request: &DialRequest, columns: &[&str]) -> Result<(Bench, Sheet, SmallRng), DialError> {
+pub(super) fn begin(request: &DialRequest, columns: &[&str]) -> Result<(Bench, Sheet, SmallRng), ChartError> {
     let bench = Bench::new(request.size)?;
-    let mut sheet = Sheet::new(columns);
-    sheet.notes = Provenance::now(bench.adapter()).notes();
-    sheet.notes.push(("seed".into(), request.seed.to_string()));
-    Ok((bench, sheet, SmallRng::seed_from_u64(request.seed)))
+    let mut sheet = Sheet::measured(columns, &bench.gpu.adapter.name);
+    let seed = request.seed();
+    sheet.notes.push(("seed".into(), seed.to_string()));
+    Ok((bench, sheet, SmallRng::seed_from_u64(seed)))
 }
 
 /// One moment.
@@ -65,7 +63,7 @@ pub fn class_of(scene: &Scene) -> SceneClass {
 }
 
 /// All scenes and missions of a class.
-pub fn scenes(class: SceneClass) -> Result<Vec<Scene>, DialError> {
+pub fn scenes(class: SceneClass) -> Result<Vec<Scene>, ChartError> {
     let mut found = Vec::new();
     for name in scene::names().into_iter().chain(scene::mission_names()) {
         let scene = scene::load(&name)?;
@@ -95,7 +93,8 @@ pub fn case(scenes: &[Scene], rng: &mut SmallRng) -> Option<Case> {
 
 /// The renderer for moments.
 pub struct Bench {
-    renderer: Renderer,
+    gpu: Gpu,
+    offscreen: Offscreen,
     config: GameConfig,
     size: [u32; 2],
 }
@@ -122,21 +121,16 @@ pub struct Taken {
 
 impl Bench {
     /// Opens the device.
-    pub fn new(size: [u32; 2]) -> Result<Bench, DialError> {
+    pub fn new(size: [u32; 2]) -> Result<Bench, ChartError> {
         let gpu = Gpu::headless()?;
-        let renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-        Ok(Bench { renderer, config: GameConfig::default(), size })
-    }
-
-    /// The name of the device.
-    pub fn adapter(&self) -> &str {
-        &self.renderer.gpu().adapter.name
+        let offscreen = Offscreen::new(&gpu, size);
+        Ok(Bench { gpu, offscreen, config: GameConfig::default(), size })
     }
 
     /// Uploads a moment.
-    pub fn show(&mut self, case: &Case) -> Result<Shown, DialError> {
+    pub fn show(&mut self, case: &Case) -> Result<Shown, ChartError> {
         let scene = scene::load(&case.scene)?;
-        let stage = Stage::new(&mut self.renderer, &scene, &self.config);
+        let stage = Stage::new(&mut self.offscreen.renderer, &scene, &self.config);
         let moment = Moment::new(&scene, &self.config, case.at, case.seed);
         let mut camera = stage.camera(moment.time(), &moment.ships());
         camera.attitude *= DQuat::from_rotation_y(case.turn[0]) * DQuat::from_rotation_x(case.turn[1]);
@@ -148,46 +142,43 @@ impl Bench {
     }
 
     /// Draws it with these settings, and takes the time.
-    pub fn take(&mut self, shown: &Shown, settings: &Settings) -> Result<Taken, DialError> {
+    pub fn take(&mut self, shown: &Shown, settings: &Settings) -> Result<Taken, ChartError> {
         let taken = self.picture(shown, settings)?;
         Ok(Taken { milliseconds: self.time(shown, settings)?, ..taken })
     }
 
     /// Draws it with these settings.
-    pub fn picture(&mut self, shown: &Shown, settings: &Settings) -> Result<Taken, DialError> {
+    pub fn picture(&mut self, shown: &Shown, settings: &Settings) -> Result<Taken, ChartError> {
         let frame = shown.stage.frame(shown.camera, self.size, shown.moment.time(), &shown.moment.histories(), None, settings);
-        let picture = self.renderer.picture(&frame, false)?;
+        let picture = self.offscreen.renderer.picture(&frame, false)?;
         let light = picture.display.chunks_exact(4).map(|pixel| [0, 1, 2].map(|k| linear(pixel[k]))).collect();
         Ok(Taken { light, bytes: picture.display, milliseconds: f64::NAN })
     }
 
     /// Milliseconds a frame with these settings, as [`Taken::milliseconds`].
-    pub fn time(&mut self, shown: &Shown, settings: &Settings) -> Result<f64, DialError> {
+    pub fn time(&mut self, shown: &Shown, settings: &Settings) -> Result<f64, ChartError> {
         let frame = || shown.stage.frame(shown.camera, self.size, shown.moment.time(), &shown.moment.histories(), None, settings);
-        let gpu = self.renderer.gpu().clone();
-        let (_, view) = target(&gpu.device, "bench", self.size, wgpu::TextureFormat::Rgba8UnormSrgb);
         // A software driver works on the processor: its time is not disturbed by other programs.
-        let is_software = gpu.adapter.device_type == wgpu::DeviceType::Cpu;
+        let is_software = self.gpu.adapter.device_type == wgpu::DeviceType::Cpu;
         let start = Instant::now();
         let clock = || processor_time().filter(|_| is_software).unwrap_or_else(|| 1e3 * start.elapsed().as_secs_f64());
         let mut milliseconds = f64::INFINITY;
         for _ in 0..TIMED {
             let begin = clock();
-            draw(&gpu, &mut self.renderer, &frame(), &view)?;
+            self.offscreen.draw(&frame())?;
             milliseconds = milliseconds.min(clock() - begin);
         }
         Ok(milliseconds)
     }
 
     /// Draws it until memory and clocks have settled.
-    pub fn warm(&mut self, shown: &Shown) -> Result<(), DialError> {
+    pub fn warm(&mut self, shown: &Shown) -> Result<(), ChartError> {
         (0..WARM).try_for_each(|_| self.time(shown, &shown.finest).map(|_| ()))
     }
 
     /// Mean FLIP of a picture from the finest.
     pub fn error(&self, finest: &Taken, taken: &Taken) -> f64 {
-        let differences = flip(&finest.light, &taken.light, self.size);
-        differences.iter().map(|difference| f64::from(*difference)).sum::<f64>() / differences.len().max(1) as f64
+        mean_flip(&finest.light, &taken.light, self.size)
     }
 }
 

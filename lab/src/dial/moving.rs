@@ -9,8 +9,8 @@ use lensrunner::scene;
 
 use super::levels::SCENES;
 use super::moments::{Case, Taken, begin, class_of};
-use super::{DialError, DialRequest};
-use crate::chart::{Sheet, SheetError};
+use super::{DialRequest, Keep};
+use crate::chart::{ChartError, Sheet};
 
 /// Columns of the sheet: FLIP from the frame before, as it is and had the rung stayed.
 pub const COLUMNS: [&str; 6] = ["scene", "T", "rung before", "rung", "FLIP", "FLIP with the rung before"];
@@ -32,19 +32,15 @@ fn load(frame: usize) -> f64 {
 }
 
 /// Draws `moments` frames of each scene; `keep` gets the rows after each.
-pub fn measure(
-    request: &DialRequest,
-    mut said: impl FnMut(String),
-    keep: &dyn Fn(&Sheet) -> Result<(), SheetError>,
-) -> Result<Sheet, DialError> {
+pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
     let (mut bench, mut sheet, _) = begin(request, &COLUMNS)?;
     for scene in SCENES {
-        said(scene.to_owned());
+        eprintln!("{scene}");
         let rungs = ladder(Prices::shipped(), class_of(&scene::load(scene)?));
         let mut governor = Governor::default();
         let mut last: Option<Taken> = None;
         for frame in 0..request.moments {
-            let case = Case { scene: scene.to_owned(), at: frame as f64 * STEP, seed: request.seed, turn: [0.0; 2] };
+            let case = Case { scene: scene.to_owned(), at: frame as f64 * STEP, seed: request.seed(), turn: [0.0; 2] };
             let shown = bench.show(&case)?;
             let before = governor.rung();
             let time = HOLD * load(frame) * rungs[before].time;

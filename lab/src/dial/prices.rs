@@ -4,8 +4,8 @@ use lensrunner::render::quality::knobs::{Knob, turned};
 use lensrunner::render::quality::prices::{HEADER, Prices, SceneClass};
 
 use super::moments::{begin, case, scenes};
-use super::{DialError, DialRequest, quantile};
-use crate::chart::{Sheet, SheetError};
+use super::{DialRequest, Keep, empty};
+use crate::chart::{ChartError, Sheet, quantile};
 
 /// Columns of the sheet of all that was measured.
 pub const COLUMNS: [&str; 8] = ["class", "scene", "T", "knob", "step", "FLIP", "ms", "finest ms"];
@@ -15,19 +15,14 @@ const BOUND: f64 = 0.99;
 /// and so much more: a few moments seldom have the worst.
 const MARGIN: f64 = 1.2;
 
-/// Measures every step at `moments` moments of each class; `said` hears how far it has come, `keep` gets the
-/// rows after each moment.
-pub fn measure(
-    request: &DialRequest,
-    mut said: impl FnMut(String),
-    keep: &dyn Fn(&Sheet) -> Result<(), SheetError>,
-) -> Result<Sheet, DialError> {
+/// Measures every step at `moments` moments of each class; `keep` gets the rows after each moment.
+pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
     let (mut bench, mut sheet, mut rng) = begin(request, &COLUMNS)?;
     for class in SceneClass::ALL {
         let scenes = scenes(class)?;
         for number in 0..request.moments {
-            let case = case(&scenes, &mut rng).ok_or(DialError::Empty(class.name()))?;
-            said(format!("{} {}/{}: {} at T = {}", class.name(), number + 1, request.moments, case.scene, case.at));
+            let case = case(&scenes, &mut rng).ok_or_else(|| empty(class.name()))?;
+            eprintln!("{} {}/{}: {} at T = {}", class.name(), number + 1, request.moments, case.scene, case.at);
             let shown = bench.show(&case)?;
             let finest = bench.take(&shown, &shown.finest)?;
             bench.warm(&shown)?;
@@ -62,7 +57,7 @@ const SAVES: f64 = 0.03;
 
 /// The table that the game reads, from what was measured: of each class the greatest errors and the median times. A step never costs less
 /// than the one before it, nor takes longer.
-pub fn table(sheet: &Sheet) -> Result<String, DialError> {
+pub fn table(sheet: &Sheet) -> Result<String, ChartError> {
     let mut text: String = sheet.notes.iter().map(|(name, note)| format!("# {name}: {note}\n")).collect();
     text.push_str(HEADER);
     text.push('\n');
@@ -72,10 +67,9 @@ pub fn table(sheet: &Sheet) -> Result<String, DialError> {
             for step in 1..knob.steps() {
                 let is_it = |row: &&Vec<String>| sheet.text(row, "knob") == knob.name() && sheet.text(row, "step") == step.to_string();
                 let rows = || sheet.rows.iter().filter(is_it).filter(|row| sheet.text(row, "class") == class.name());
-                let mut errors: Vec<f64> = rows().map(|row| sheet.number(row, "FLIP")).collect();
-                let mut times: Vec<f64> = rows().map(|row| sheet.number(row, "ms") / sheet.number(row, "finest ms")).collect();
-                dearest = dearest.max((MARGIN * quantile(&mut errors, BOUND)).min(1.0));
-                let time = quantile(&mut times, 0.5);
+                let error = quantile(rows().map(|row| sheet.number(row, "FLIP")), BOUND);
+                dearest = dearest.max((MARGIN * error).min(1.0));
+                let time = quantile(rows().map(|row| sheet.number(row, "ms") / sheet.number(row, "finest ms")), 0.5);
                 quickest = if time < 1.0 - SAVES { quickest.min(time) } else { quickest };
                 text.push_str(&format!("{},{},{step},{},{dearest:.5},{quickest:.4}\n", class.name(), knob.name(), knob.says(step)));
             }

@@ -12,8 +12,9 @@ use lensrunner::render::stage::settings;
 use lensrunner::render::{Gpu, Renderer};
 use lensrunner::scene::GameConfig;
 
-use super::request::{ChartError, Contestant, Shown, View};
-use crate::frame_times::processor_time;
+use super::request::{Contestant, Shown, View};
+use crate::chart::ChartError;
+use crate::offscreen::processor_time;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 
@@ -51,10 +52,6 @@ impl Bench {
 
     /// Draws a frame of contestant `number` (None: no disk at all) for a view; with a size it brings linear light back, drawn at that size.
     pub fn frame(&mut self, number: Option<usize>, view: &View, picture: Option<[u32; 2]>) -> Result<Shown, ChartError> {
-        self.drawn(number, view, picture).map_err(|error| ChartError::Draw(error.to_string()))
-    }
-
-    fn drawn(&mut self, number: Option<usize>, view: &View, picture: Option<[u32; 2]>) -> Result<Shown, PictureError> {
         // Without a disk any of them will do; the last is the cheapest to bring its disk back.
         let config = &self.configs[number.unwrap_or(self.configs.len() - 1)];
         let representation = &config.disk.representation;
@@ -64,7 +61,7 @@ impl Bench {
             self.renderers.push(Held { representation: representation.clone(), renderer, taken_up: None });
         }
         let held = self.renderers.iter_mut().find(|held| held.representation == *representation);
-        let Some(Held { renderer, taken_up, .. }) = held else { return Err(PictureError::Nothing) };
+        let Some(Held { renderer, taken_up, .. }) = held else { return Err(PictureError::Nothing.into()) };
         if *taken_up != number || number.is_none() {
             *taken_up = number;
             renderer.set_disk(number.map(|_| Disk::new(config.disk.clone(), config)));

@@ -4,16 +4,15 @@
 //! the same for every row (`chase.rs`); and the same, asked for, frame by frame (`flight.rs`).
 
 use super::bench::Bench;
-use super::request::{ChartError, Contestant, DiskRequest, REFERENCE, TIME, View, contestants, eye, median, own, passes};
+use super::request::{Contestant, DiskRequest, REFERENCE, TIME, View, contestants, eye, own, passes};
 use lensrunner::spacetime::Observer;
 use std::path::PathBuf;
 
 use glam::DVec3;
 
-use crate::chart::{Provenance, Sheet};
+use crate::chart::{ChartError, Sheet, quantile};
 use lensrunner::render::Gpu;
-use lensrunner::scene::GameConfig;
-use lensrunner::scene::disk::Gas;
+use lensrunner::scene::{self, disk::Gas};
 
 use super::chase::{chase, summary};
 use super::draw::figure;
@@ -22,16 +21,14 @@ use super::exact::picture;
 use super::flight::{self, flight};
 use super::places::errors_by_place;
 
-/// Reads what was measured before, and draws.
-pub fn redraw(request: &DiskRequest) -> Result<Vec<PathBuf>, ChartError> {
-    let [alone, chase] = ["disk-alone", "disk-chase"].map(|name| Sheet::load(&request.output.csv(name)));
-    let (alone, chase) = (alone?, chase?);
-    let summary = summary(&chase);
-    Ok(figure(&alone, &chase, &summary).save(&request.output.folder, "disk")?.to_vec())
-}
-
-/// Measures and draws; returns the files written.
-pub fn run(request: &DiskRequest, config: &GameConfig, gpu: Gpu) -> Result<Vec<PathBuf>, ChartError> {
+/// Measures (or reads what was measured before) and draws; returns the files written.
+pub fn run(request: &DiskRequest) -> Result<Vec<PathBuf>, ChartError> {
+    if request.output.redraw {
+        let [alone, chase] = ["disk-alone", "disk-chase"].map(|name| Sheet::load(&request.output.csv(name)));
+        let (alone, chase) = (alone?, chase?);
+        return Ok(figure(&alone, &chase, &summary(&chase)).save(&request.output.folder, "disk")?.to_vec());
+    }
+    let (config, gpu) = (&scene::config::find(None)?, Gpu::headless()?);
     let contestants = contestants(config);
     let bench = &mut Bench::new(gpu, &contestants, request.size);
     let alone = request.output.sheet("disk-alone", || alone(request, &contestants, bench))?;
@@ -57,12 +54,13 @@ fn portrait() -> Observer {
 }
 
 fn alone(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -> Result<Sheet, ChartError> {
-    let mut sheet =
-        Sheet::new(&["contestant", "family", "disk_ms", "passes_ms", "wall_ms", "against_arcs_4200", "psnr_db", "flip", "mean_difference"]);
-    sheet.notes = Provenance::now(bench.adapter()).notes();
+    let mut sheet = Sheet::measured(
+        &["contestant", "family", "disk_ms", "passes_ms", "wall_ms", "against_arcs_4200", "psnr_db", "flip", "mean_difference"],
+        bench.adapter(),
+    );
     let view = View { eye: portrait(), time: TIME, sky: false, counted: false };
     let named = contestants.iter().position(|contestant| contestant.name == REFERENCE);
-    let reference = named.ok_or(ChartError::Reference)?;
+    let reference = named.ok_or_else(|| ChartError::Failed(format!("no contestant is called {REFERENCE:?}")))?;
     let base = &contestants[0].config;
     let truth = picture(&Gas::new(&base.disk, base.hole.mass_solar), &view.eye, request.error_size, TIME, 3, 6);
     let mut errors: Vec<PictureError> = Vec::new();
@@ -81,20 +79,12 @@ fn alone(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -
         }
     }
     let against = times[reference][0].clone();
-    for ((contestant, error), [own_times, pass_times, whole]) in contestants.iter().zip(errors).zip(&mut times) {
+    for ((contestant, error), [own_times, pass_times, whole]) in contestants.iter().zip(errors).zip(&times) {
         // Round by round, for what else runs on the machine changes from round to round.
-        let mut ratios: Vec<f64> = own_times.iter().zip(&against).map(|(own, reference)| own / reference).collect();
-        sheet.push([
-            contestant.name.clone(),
-            contestant.family.to_string(),
-            format!("{:.3}", median(own_times)),
-            format!("{:.3}", median(pass_times)),
-            format!("{:.3}", median(whole)),
-            format!("{:.3}", median(&mut ratios)),
-            format!("{:.2}", error.psnr),
-            format!("{:.4}", error.flip),
-            format!("{:.4}", error.relative),
-        ]);
+        let ratios: Vec<f64> = own_times.iter().zip(&against).map(|(own, reference)| own / reference).collect();
+        let medians = [own_times, pass_times, whole, &ratios].map(|times| format!("{:.3}", quantile(times.iter().copied(), 0.5)));
+        let errors = [format!("{:.2}", error.psnr), format!("{:.4}", error.flip), format!("{:.4}", error.relative)];
+        sheet.push([contestant.name.clone(), contestant.family.to_string()].into_iter().chain(medians).chain(errors));
     }
     Ok(sheet)
 }

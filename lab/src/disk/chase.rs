@@ -1,12 +1,12 @@
 //! Table 2: the scripted chase, each way to draw the disk at every place of it, with the error beside each time.
 
-use crate::chart::{Provenance, Sheet};
+use crate::chart::{ChartError, Sheet, quantile};
 use lensrunner::scene::disk::Gas;
 
 use super::bench::Bench;
 use super::error::{compare, peak};
 use super::exact::picture;
-use super::request::{ChartError, Contestant, DISK_PASSES, DiskRequest, View, median, own};
+use super::request::{Contestant, DISK_PASSES, DiskRequest, View, own};
 use super::script::script;
 
 /// The exact picture has this many samples squared in a pixel.
@@ -19,21 +19,23 @@ const LEAST_PEAK: f32 = 0.01;
 /// A row for each place and contestant. The frames that are timed have stars and the Milky Way behind the disk, as in the game; the
 /// pictures that are compared show the disk alone. Times are medians of the rounds, in which all take turns.
 pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -> Result<Sheet, ChartError> {
-    let mut sheet = Sheet::new(&[
-        "contestant",
-        "family",
-        "step",
-        "situation",
-        "frame_ms",
-        "wall_ms",
-        "disk_ms",
-        "arcs_ms",
-        "mesh_ms",
-        "draw_ms",
-        "psnr_db",
-        "flip",
-    ]);
-    sheet.notes = Provenance::now(bench.adapter()).notes();
+    let mut sheet = Sheet::measured(
+        &[
+            "contestant",
+            "family",
+            "step",
+            "situation",
+            "frame_ms",
+            "wall_ms",
+            "disk_ms",
+            "arcs_ms",
+            "mesh_ms",
+            "draw_ms",
+            "psnr_db",
+            "flip",
+        ],
+        bench.adapter(),
+    );
     let base = &contestants[0].config;
     let gas = Gas::new(&base.disk, base.hole.mass_solar);
     let steps = request.steps.max(2);
@@ -54,11 +56,11 @@ pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], bench: &m
                 times.iter_mut().zip(all).for_each(|(times, time)| times.push(time));
             }
         }
-        for (&(number, contestant), times) in runners.iter().zip(&mut times) {
+        for (&(number, contestant), times) in runners.iter().zip(&times) {
             let shown = bench.frame(Some(number), &alone, Some(request.error_size))?;
             let error = compare(&shown.picture, truth, request.error_size, exposed);
             let mut cells = vec![contestant.name.clone(), contestant.family.to_string(), step.to_string(), situation.to_owned()];
-            cells.extend(times.iter_mut().map(|times| format!("{:.3}", median(times))));
+            cells.extend(times.iter().map(|times| format!("{:.3}", quantile(times.iter().copied(), 0.5))));
             cells.extend([format!("{:.2}", error.psnr), format!("{:.4}", error.flip)]);
             sheet.push(cells);
         }
@@ -81,7 +83,7 @@ pub(super) fn summary(chase: &Sheet) -> Sheet {
         "worst_flip",
     ]);
     sheet.notes.clone_from(&chase.notes);
-    for name in names(chase) {
+    for name in chase.distinct("contestant") {
         let rows: Vec<&Vec<String>> = chase.rows.iter().filter(|row| chase.text(row, "contestant") == name).collect();
         let column = |column: &str| -> Vec<f64> { rows.iter().map(|row| chase.number(row, column)).collect() };
         let frames = column("frame_ms");
@@ -89,7 +91,7 @@ pub(super) fn summary(chase: &Sheet) -> Sheet {
         let place = rows.iter().find(|row| chase.number(row, "frame_ms") == worst).map_or("", |row| chase.text(row, "situation"));
         let flips = column("flip");
         sheet.push([
-            name.clone(),
+            name.to_owned(),
             format!("{:.1}", mean(&frames)),
             format!("{worst:.1}"),
             format!("{:.2}", mean(&frames) / worst),
@@ -101,18 +103,6 @@ pub(super) fn summary(chase: &Sheet) -> Sheet {
         ]);
     }
     sheet
-}
-
-/// The contestants of a sheet, in their order.
-fn names(sheet: &Sheet) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for row in &sheet.rows {
-        let name = sheet.text(row, "contestant");
-        if names.iter().all(|known| known != name) {
-            names.push(name.to_owned());
-        }
-    }
-    names
 }
 
 /// The mean of all values; 0 of none.

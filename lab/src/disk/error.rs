@@ -1,6 +1,6 @@
 //! How far a picture is from the truth, in linear light.
 
-use crate::flip::flip;
+use crate::flip::mean_flip;
 
 /// The error of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,10 +34,8 @@ pub fn compare(got: &[[f32; 3]], truth: &[[f32; 3]], size: [u32; 2], peak: f32) 
     }
     let mean = square / (3 * truth.len().max(1)) as f64;
     let exposed = |picture: &[[f32; 3]]| -> Vec<[f32; 3]> { picture.iter().map(|p| p.map(|light| light / peak)).collect() };
-    let differences = flip(&exposed(truth), &exposed(got), size);
-    let flip = differences.iter().map(|&d| f64::from(d)).sum::<f64>() / differences.len().max(1) as f64;
     PictureError {
-        flip,
+        flip: mean_flip(&exposed(truth), &exposed(got), size),
         psnr: (10.0 * (f64::from(peak).powi(2) / mean.max(1e-300)).log10()).min(BEST_PSNR),
         relative: off / whole.max(1e-30),
     }

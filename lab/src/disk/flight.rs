@@ -1,10 +1,10 @@
 //! The scripted chase frame by frame, as it is played: how long the adapter works on each frame, and the processor before that.
 
-use crate::chart::{Provenance, Sheet};
+use crate::chart::{ChartError, Sheet};
 use lensrunner::scene::GameConfig;
 
 use super::bench::Bench;
-use super::request::{ChartError, DISK_PASSES, DiskRequest, REFERENCE, View, contestants};
+use super::request::{DISK_PASSES, DiskRequest, REFERENCE, View, contestants};
 use super::script::script;
 
 /// Times each place is drawn: timestamps are read one frame later, and of two frames in a row only those of one.
@@ -14,8 +14,8 @@ const DRAWN: usize = 3;
 /// adapter's timestamps, of them the disk's own, and the processor's until the frame was submitted, all in ms; and the fragments that the
 /// disk's draw shaded.
 pub(super) fn flight(request: &DiskRequest, config: &GameConfig, bench: &mut Bench) -> Result<Sheet, ChartError> {
-    let mut sheet = Sheet::new(&["frame", "situation", "passes_ms", "disk_ms", "before_submission_ms", "disk_fragments"]);
-    sheet.notes = Provenance::now(bench.adapter()).notes();
+    let mut sheet =
+        Sheet::measured(&["frame", "situation", "passes_ms", "disk_ms", "before_submission_ms", "disk_fragments"], bench.adapter());
     let number = contestants(config).iter().position(|contestant| contestant.name == REFERENCE);
     for frame in 0..request.flight {
         let share = frame as f64 / request.flight.saturating_sub(1).max(1) as f64;

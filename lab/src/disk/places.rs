@@ -5,13 +5,13 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec3;
 
-use crate::chart::{Provenance, Sheet};
+use crate::chart::{ChartError, Sheet};
 use lensrunner::scene::disk::Gas;
 
 use super::bench::Bench;
 use super::error::{compare, peak};
 use super::exact::picture;
-use super::request::{ChartError, Contestant, DiskRequest, TIME, View, eye};
+use super::request::{Contestant, DiskRequest, TIME, View, eye};
 
 /// Degrees from the axis that the disk is seen at: from above to nearly edge on.
 const INCLINATIONS: [f64; 8] = [0.0, 30.0, 60.0, 80.0, 85.0, 87.0, 88.0, 89.0];
@@ -39,8 +39,7 @@ fn seats() -> Vec<(String, Observer)> {
 
 /// PSNR and ꟻLIP of polygons and arcs from each of these places.
 pub fn errors_by_place(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -> Result<Sheet, ChartError> {
-    let mut sheet = Sheet::new(&["contestant", "family", "place", "psnr_db", "flip", "mean_difference"]);
-    sheet.notes = Provenance::now(bench.adapter()).notes();
+    let mut sheet = Sheet::measured(&["contestant", "family", "place", "psnr_db", "flip", "mean_difference"], bench.adapter());
     let base = &contestants[0].config;
     let gas = Gas::new(&base.disk, base.hole.mass_solar);
     for (place, eye) in seats() {

@@ -3,7 +3,7 @@
 use image::{Rgb, RgbImage};
 
 use crate::dial::moments::linear;
-use crate::flip::flip;
+use crate::flip::mean_flip;
 
 /// Steps of 255 within which two drivers round.
 const ROUNDING: u8 = 2;
@@ -48,8 +48,7 @@ pub fn difference(one: &RgbImage, other: &RgbImage) -> Difference {
         }
     }
     let light = |picture: &RgbImage| picture.pixels().map(|pixel| pixel.0.map(linear)).collect::<Vec<_>>();
-    let differences = flip(&light(one), &light(other), [width, height]);
-    found.flip = differences.iter().map(|difference| f64::from(*difference)).sum::<f64>() / found.pixels.max(1) as f64;
+    found.flip = mean_flip(&light(one), &light(other), [width, height]);
     found
 }
 

@@ -8,74 +8,43 @@ pub mod differ;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use clap::Args;
 use image::RgbImage;
-use lensrunner::render::{DeviceError, Gpu};
-use lensrunner::scene::{self, SceneError};
-use thiserror::Error;
+use lensrunner::render::Gpu;
+use lensrunner::scene;
 
-use crate::chart::{Output, Provenance, Sheet, SheetError};
+use crate::chart::{ChartError, DEFAULT_FOLDER, Sheet};
 use differ::{Difference, difference};
 
-/// What to compare.
-#[derive(Clone, Debug)]
+/// The same scenes by two Vulkan drivers: how many pixels differ, and a picture of those that differ most.
+#[derive(Args, Clone, Debug)]
 pub struct DriversRequest {
-    /// Where sheet and picture go.
-    pub output: Output,
-    /// The second driver: its manifest, a `.json` file; or a folder with its pictures, NAME.png for each scene. Sheet and picture are then
-    /// named after the folder.
+    /// The folder for what is written.
+    #[arg(short, value_name = "DIR", default_value = DEFAULT_FOLDER)]
+    pub output: PathBuf,
+    /// The manifest of the second driver, or a folder with its pictures of the scenes, NAME.png, drawn by `lensrunner shot` on another
+    /// machine; the table is then named after the folder.
+    #[arg(long, value_name = "FILE.json|DIR")]
     pub driver: PathBuf,
-    /// Names or files of scenes.
-    pub scenes: Vec<String>,
-    /// Width and height in pixels.
-    pub size: [u32; 2],
 }
 
-/// Why there is no comparison.
-#[derive(Debug, Error)]
-pub enum DriversError {
-    /// The game could not be run, or failed.
-    #[error("{scene} by {driver}: {reason}")]
-    Shot {
-        /// The scene.
-        scene: String,
-        /// The driver.
-        driver: String,
-        /// What went wrong.
-        reason: String,
-    },
-    /// There is no such driver.
-    #[error(
-        "{0}: no such file or folder; it is to be the manifest of a Vulkan driver, for instance vk_swiftshader_icd.json of Chromium, or a \
-         folder with pictures"
-    )]
-    NoDriver(PathBuf),
-    /// The folder lacks a picture.
-    #[error("{0}: no such file; draw it with `lensrunner shot --scene {1} --size {2}x{3}`")]
-    NoPicture(PathBuf, String, u32, u32),
-    /// A picture is of another size than was asked for.
-    #[error("{0} is {1} × {2} pixels, but {3} × {4} are compared: draw it with `lensrunner shot --size {3}x{4}`")]
-    Size(PathBuf, u32, u32, u32, u32),
-    /// There is no such scene, or it is wrong.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// There is nothing to draw with.
-    #[error(transparent)]
-    Device(#[from] DeviceError),
-    /// The sheet.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
-    /// The picture.
-    #[error("cannot write {0}: {1}")]
-    Write(PathBuf, image::ImageError),
-}
-
-impl DriversError {
-    /// Whether what was asked for is wrong, rather than that something failed.
-    pub fn is_input(&self) -> bool {
-        use DriversError::{NoDriver, NoPicture, Scene, Size};
-        matches!(self, NoDriver(_) | NoPicture(..) | Scene(_) | Size(..))
-    }
-}
+/// The scenes that are drawn.
+const SCENES: [&str; 12] = [
+    "ring",
+    "parade",
+    "galaxy-axis-vertex",
+    "disk",
+    "disk-inner",
+    "disk-80",
+    "chase",
+    "plunge",
+    "aurora-orbit",
+    "aurora-below",
+    "aurora-lensed",
+    "02-first-pursuit",
+];
+/// Width and height in pixels.
+const SIZE: [u32; 2] = [640, 360];
 
 /// Columns of the sheet.
 pub const COLUMNS: [&str; 6] = ["scene", "pixels", "differ", "elsewhere", "greatest", "FLIP"];
@@ -84,75 +53,65 @@ pub const COLUMNS: [&str; 6] = ["scene", "pixels", "differ", "elsewhere", "great
 const SHOWN: usize = 3;
 
 /// Draws all scenes by both drivers, writes `drivers.csv` and `drivers.png`, and returns the files.
-pub fn run(request: &DriversRequest) -> Result<Vec<PathBuf>, DriversError> {
-    for name in &request.scenes {
+pub fn run(request: &DriversRequest) -> Result<Vec<PathBuf>, ChartError> {
+    for name in SCENES {
         scene::load(name)?;
     }
-    let manifest = request.driver.canonicalize().map_err(|_| DriversError::NoDriver(request.driver.clone()))?;
+    let manifest = request.driver.canonicalize().map_err(|_| {
+        ChartError::Input(format!(
+            "{}: no such file or folder; it is to be the manifest of a Vulkan driver, for instance vk_swiftshader_icd.json of Chromium, or \
+             a folder with pictures",
+            request.driver.display()
+        ))
+    })?;
     let other = manifest.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let pictures = manifest.is_dir();
     let stem = if pictures { format!("drivers-{other}") } else { "drivers".to_owned() };
-    let gpu = Gpu::headless()?;
-    let mut sheet = Sheet::new(&COLUMNS);
-    sheet.notes = Provenance::now(&gpu.adapter_name()).notes();
-    sheet.notes.push(("second driver".into(), other.clone()));
-    drop(gpu);
+    let mut sheet = Sheet::measured(&COLUMNS, &Gpu::headless()?.adapter_name());
+    sheet.notes.push(("second driver".into(), other));
     let mut all: Vec<(Difference, [RgbImage; 2])> = Vec::new();
-    for scene in &request.scenes {
+    for scene in SCENES {
         eprintln!("{scene}");
-        let second = if pictures {
-            drawn(&manifest, scene, request.size)?
-        } else {
-            shot(scene, request, Some(&manifest), &manifest.display().to_string())?
-        };
-        let pair = [shot(scene, request, None, "the first driver")?, second];
+        let second = if pictures { drawn(&manifest, scene)? } else { shot(scene, Some(&manifest))? };
+        let pair = [shot(scene, None)?, second];
         let found = difference(&pair[0], &pair[1]);
-        sheet.push([
-            scene.clone(),
-            found.pixels.to_string(),
-            found.differ.to_string(),
-            found.elsewhere.to_string(),
-            found.greatest.to_string(),
-            format!("{:.5}", found.flip),
-        ]);
+        let counts = [found.pixels, found.differ, found.elsewhere, found.greatest.into()].map(|count| count.to_string());
+        sheet.push([scene.to_owned()].into_iter().chain(counts).chain([format!("{:.5}", found.flip)]));
         all.push((found, pair));
     }
-    let csv = request.output.csv(&stem);
+    let csv = request.output.join(format!("{stem}.csv"));
     sheet.save(&csv)?;
     all.sort_by_key(|(found, _)| std::cmp::Reverse((found.elsewhere, found.differ)));
     all.truncate(SHOWN);
-    let path = request.output.folder.join(format!("{stem}.png"));
-    side_by_side(&all, request.size).save(&path).map_err(|error| DriversError::Write(path.clone(), error))?;
+    let path = request.output.join(format!("{stem}.png"));
+    side_by_side(&all).save(&path).map_err(|error| ChartError::Write(path.clone(), error.to_string()))?;
     Ok(vec![csv, path])
 }
 
 /// A picture of the scene in a folder.
-fn drawn(folder: &Path, scene: &str, [width, height]: [u32; 2]) -> Result<RgbImage, DriversError> {
-    let name = Path::new(scene).file_stem().unwrap_or_default();
-    let path = folder.join(name).with_extension("png");
-    if !path.is_file() {
-        return Err(DriversError::NoPicture(path, scene.into(), width, height));
-    }
-    let failed = |error: image::ImageError| DriversError::Shot {
-        scene: scene.into(),
-        driver: path.display().to_string(),
-        reason: error.to_string(),
+fn drawn(folder: &Path, scene: &str) -> Result<RgbImage, ChartError> {
+    let path = folder.join(scene).with_extension("png");
+    let [width, height] = SIZE;
+    let wrong = |what: String| {
+        ChartError::Input(format!("{}: {what}; draw it with `lensrunner shot --scene {scene} --size {width}x{height}`", path.display()))
     };
-    let picture = image::open(&path).map_err(failed)?.into_rgb8();
-    if picture.dimensions() != (width, height) {
-        return Err(DriversError::Size(path, picture.width(), picture.height(), width, height));
+    let picture = image::open(&path).map_err(|error| wrong(error.to_string()))?.into_rgb8();
+    let (wide, high) = picture.dimensions();
+    if [wide, high] != SIZE {
+        return Err(wrong(format!("{wide} × {high} pixels")));
     }
     Ok(picture)
 }
 
 /// A picture by the game, in a process of its own.
-fn shot(scene: &str, request: &DriversRequest, manifest: Option<&Path>, driver: &str) -> Result<RgbImage, DriversError> {
-    let failed = |reason: String| DriversError::Shot { scene: scene.into(), driver: driver.into(), reason };
+fn shot(scene: &str, manifest: Option<&Path>) -> Result<RgbImage, ChartError> {
+    let driver = manifest.map_or("the first driver".into(), |manifest| manifest.display().to_string());
+    let failed = |reason: String| ChartError::Program(format!("{scene} by {driver}"), reason);
     let here = std::env::current_exe().map_err(|error| failed(error.to_string()))?;
     let game = here.with_file_name(format!("lensrunner{}", std::env::consts::EXE_SUFFIX));
     let file = std::env::temp_dir().join(format!("lensrunner-drivers-{}.png", std::process::id()));
     let mut command = Command::new(game);
-    command.args(["shot", "--scene", scene, "--size", &format!("{}x{}", request.size[0], request.size[1]), "-o"]).arg(&file);
+    command.args(["shot", "--scene", scene, "--size", &format!("{}x{}", SIZE[0], SIZE[1]), "-o"]).arg(&file);
     if let Some(manifest) = manifest {
         // The second name is that of older loaders.
         command.env("VK_DRIVER_FILES", manifest).env("VK_ICD_FILENAMES", manifest);
@@ -167,7 +126,8 @@ fn shot(scene: &str, request: &DriversRequest, manifest: Option<&Path>, driver: 
 }
 
 /// A row for each scene: the first driver, the second, and where they differ (white: nowhere within a pixel; grey: beyond rounding).
-fn side_by_side(all: &[(Difference, [RgbImage; 2])], [width, height]: [u32; 2]) -> RgbImage {
+fn side_by_side(all: &[(Difference, [RgbImage; 2])]) -> RgbImage {
+    let [width, height] = SIZE;
     let mut picture = RgbImage::new(3 * width, height * all.len().max(1) as u32);
     for (row, (found, pair)) in all.iter().enumerate() {
         let top = i64::from(height) * row as i64;

@@ -59,7 +59,7 @@ fn panel(sheet: &Sheet, flight: &str, title: &str, cost: &str, error: &str) -> P
         let points = of_it("0");
         let most = points.first().map_or(f64::INFINITY, |first| first[0]);
         let failed = of_it("1").into_iter().rfind(|point| point[0] < most);
-        Line { name: method.name().into(), points, failed: failed.into_iter().collect(), dots: true, ..Line::default() }
+        Line { name: method.name().into(), points, failed: failed.into_iter().collect(), dots: true }
     };
     let (x, own) = match cost {
         "evaluations" => ("evaluations", Vec::new()),

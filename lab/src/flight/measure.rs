@@ -2,11 +2,11 @@
 
 use lensrunner::spacetime::matter::{ShipState, angular_momentum, energy};
 
+use super::FlightRequest;
 use super::cases::{self, Case};
 use super::methods::{Effort, Flown, Method, fly};
 use super::truth::{self, Polar};
-use super::{FlightError, FlightRequest};
-use crate::chart::{Provenance, Sheet, interleaved_by, thread_time};
+use crate::chart::{ChartError, Sheet, interleaved_by, thread_time};
 
 /// The game's step, r_s/c (`clock.step`).
 pub const GAME_STEP: f64 = 1.0 / 32.0;
@@ -75,9 +75,8 @@ const COLUMNS: [&str; 12] =
     ["flight", "method", "effort", "own", "step", "evaluations", "time_ms", "time_over_game", "energy", "momentum", "phase", "failed"];
 
 /// A row for each method, flight and effort.
-pub fn measure(request: &FlightRequest) -> Result<Sheet, FlightError> {
-    let mut sheet = Sheet::new(&COLUMNS);
-    sheet.notes = Provenance::now("").notes();
+pub fn measure(request: &FlightRequest) -> Result<Sheet, ChartError> {
+    let mut sheet = Sheet::measured(&COLUMNS, "");
     for case in cases::all()? {
         eprintln!("{}", case.name);
         let truth = case.truth();

@@ -13,38 +13,27 @@ pub mod truth;
 
 use std::path::PathBuf;
 
-use lensrunner::spacetime::orbit::OrbitError;
+use clap::Args;
+use lensrunner::argument::whole;
 
-use crate::chart::{Output, SheetError};
-use crate::plot::PlotError;
+use crate::chart::{ChartError, Output};
 
-/// What the chart is asked for.
-#[derive(Clone, Debug)]
+/// Integrators of matter: error in energy, angular momentum and phase against cost on five flights, and the step at which each fails.
+#[derive(Args, Clone, Debug)]
 pub struct FlightRequest {
     /// Where it goes.
+    #[command(flatten)]
     pub output: Output,
     /// How often each flight is timed; the median counts.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = whole::<usize>(1, 255))]
     pub rounds: usize,
-    /// The most evaluations of a flight: finer steps are left out.
+    /// The most evaluations of the equations of motion in a flight; what takes more is left out.
+    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = whole::<u64>(1_000, u64::MAX))]
     pub evaluations: u64,
 }
 
-/// Why there is no chart.
-#[derive(Debug, thiserror::Error)]
-pub enum FlightError {
-    /// The CSV.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
-    /// The picture.
-    #[error(transparent)]
-    Plot(#[from] PlotError),
-    /// A flight that there is not.
-    #[error(transparent)]
-    Orbit(#[from] OrbitError),
-}
-
 /// Measures (or reads) and draws; returns the files written.
-pub fn run(request: &FlightRequest) -> Result<Vec<PathBuf>, FlightError> {
+pub fn run(request: &FlightRequest) -> Result<Vec<PathBuf>, ChartError> {
     let output = &request.output;
     let sheet = output.sheet("flight", || measure::measure(request))?;
     let limits = measure::limits(&sheet);

@@ -12,8 +12,8 @@ use lensrunner::render::{Gpu, Renderer};
 use lensrunner::scene::{GameConfig, Scene};
 
 use super::parts::{Part, Whose};
-use super::processor::processor_time;
 use super::times::{FrameTimes, FrameTimesRequest};
+use crate::offscreen::processor_time;
 
 /// The format of the picture.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;

@@ -5,23 +5,19 @@
 
 mod bench;
 pub mod parts;
-mod processor;
 mod times;
-pub mod whole;
 
-use std::io::Write;
 use std::path::PathBuf;
 
 use lensrunner::scene::{self, GameConfig, Scene};
 use lensrunner::sim::Moment;
 
 use lensrunner::render::Gpu;
-use lensrunner::render::gpu::readback::PictureError;
 use lensrunner::render::shot::{ShotError, surroundings};
 
-use crate::chart::{Provenance, Sheet};
+use crate::chart::{ChartError, Sheet};
+use crate::say::say;
 use bench::Bench;
-pub use processor::processor_time;
 pub use times::{FrameTimes, FrameTimesRequest};
 
 /// The scene whose chase is flown by its pilots.
@@ -33,7 +29,8 @@ const COLUMNS: [&str; 7] = ["scene", "whose", "part", "mean_ms", "median_ms", "w
 
 /// Times the scenes one after the other, then the chase, and says each result as it comes. What is wrong with any of them is said before
 /// the first is drawn. Writes the sheets `frame` and, of the chase, `frame-flight`.
-pub fn run(request: &FrameTimesRequest, config: &GameConfig, out: &mut impl Write) -> Result<Vec<PathBuf>, ShotError> {
+pub fn run(request: &FrameTimesRequest) -> Result<Vec<PathBuf>, ChartError> {
+    let config = &scene::config::find(None)?;
     let played = |name: &String| -> Result<(Scene, Moment), ShotError> {
         let scene = scene::load(name)?;
         let moment = Moment::new(&scene, config, request.at, 0);
@@ -43,35 +40,29 @@ pub fn run(request: &FrameTimesRequest, config: &GameConfig, out: &mut impl Writ
     let scenes: Vec<_> = request.scenes.iter().map(played).collect::<Result<_, _>>()?;
     let bench = Bench { gpu: Gpu::headless()?, surroundings: surroundings(), request, config };
     let [width, height] = request.size;
-    let say = |error: std::io::Error| PictureError::Write { path: "standard output".into(), reason: error.to_string() };
-    writeln!(out, "{}, {width}x{height}, {} frames", bench.gpu.adapter.name, request.frames).map_err(say)?;
-    let mut sheet = Sheet::new(&COLUMNS);
-    sheet.notes = Provenance::now(&bench.gpu.adapter_name()).notes();
+    say(format_args!("{}, {width}x{height}, {} frames", bench.gpu.adapter.name, request.frames));
+    let mut sheet = Sheet::measured(&COLUMNS, &bench.gpu.adapter_name());
     sheet.notes.push(("size".into(), format!("{width}x{height}")));
     for (name, (scene, moment)) in request.scenes.iter().zip(scenes) {
         let times = bench.time(name, &scene, moment)?;
-        writeln!(out, "{times}").map_err(say)?;
+        say(&times);
         times.write(&mut sheet);
     }
-    let mut paths = vec![request.output.csv("frame")];
-    let mut sheets = Vec::new();
+    let mut paths = vec![request.output.join("frame.csv")];
     if request.flight > 0 {
         let scene = scene::load(CHASE)?;
         let times = bench.fly(CHASE, &scene, steps_of(&scene, config), request.flight)?;
-        writeln!(out, "{times}").map_err(say)?;
+        say(&times);
         times.write(&mut sheet);
         let mut flight = Sheet::new(&["time", "frame_ms", "without_bodies_and_aurora_ms"]);
         flight.notes.clone_from(&sheet.notes);
         for ((time, whole), alone) in times.moments.iter().zip(times.parts.frames()).zip(&times.alone) {
             flight.push([format!("{time:.5}"), format!("{whole:.3}"), format!("{alone:.3}")]);
         }
-        paths.push(request.output.csv("frame-flight"));
-        sheets.push(flight);
+        paths.push(request.output.join("frame-flight.csv"));
+        flight.save(&paths[1])?;
     }
-    sheets.insert(0, sheet);
-    for (sheet, path) in sheets.iter().zip(&paths) {
-        sheet.save(path).map_err(|error| PictureError::Write { path: path.display().to_string(), reason: error.to_string() })?;
-    }
+    sheet.save(&paths[0])?;
     Ok(paths)
 }
 

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::chart::quantile;
+
 /// Who does a part of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Whose {
@@ -47,13 +49,10 @@ pub struct Spread {
 impl Spread {
     /// Of these times; zero of none.
     pub fn of(times: &[f64]) -> Spread {
-        let mut sorted = times.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        let count = sorted.len();
         Spread {
-            mean: sorted.iter().sum::<f64>() / count.max(1) as f64,
-            median: if count == 0 { 0.0 } else { 0.5 * (sorted[count / 2] + sorted[(count - 1) / 2]) },
-            worst: sorted.last().copied().unwrap_or(0.0),
+            mean: times.iter().sum::<f64>() / times.len().max(1) as f64,
+            median: if times.is_empty() { 0.0 } else { quantile(times.iter().copied(), 0.5) },
+            worst: times.iter().copied().fold(0.0, f64::max),
         }
     }
 }

@@ -1,29 +1,41 @@
 //! What is asked for, and what the frames of a scene took.
 
 use std::fmt;
+use std::path::PathBuf;
 
+use clap::Args;
+use lensrunner::argument::{number, whole};
 use lensrunner::render::disk::types::DiskCounters;
 use lensrunner::render::gpu::types::Counters;
+use lensrunner::scene;
 
 use super::parts::{Parts, Spread};
-use crate::chart::{Output, Sheet};
+use crate::chart::{DEFAULT_FOLDER, Sheet};
 
-/// What to time.
-#[derive(Clone, Debug)]
+/// Times whole frames of scenes and of the chase from start to end, and every part of them.
+#[derive(Args, Clone, Debug)]
 pub struct FrameTimesRequest {
-    /// Where the sheets go.
-    pub output: Output,
-    /// Names or files of scenes.
+    /// The folder for what is written.
+    #[arg(short, value_name = "DIR", default_value = DEFAULT_FOLDER)]
+    pub output: PathBuf,
+    /// Scenes: TOML files, or names in assets/scenes.
+    #[arg(long = "scene", value_name = "NAME|FILE", value_delimiter = ',', default_value = "ring,galaxy,parade,disk,chase,aurora-orbit")]
+    #[arg(long_help = scene::help("TOML files, or names in assets/scenes."))]
     pub scenes: Vec<String>,
     /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
     pub size: [u32; 2],
-    /// Frames that are timed, after some that are not.
+    /// Frames of each scene.
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = whole::<u32>(1, 10_000))]
     pub frames: u32,
-    /// T of the frames, in r_s/c.
+    /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed).
+    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     pub at: f64,
-    /// Whether the aurora is held to its share of a frame, as in the window; it is given some frames more for that.
+    /// Hold the aurora to its share of a frame, as in the window.
+    #[arg(long)]
     pub rationed: bool,
-    /// Frames that are timed along the chase; 0 for none.
+    /// Frames of the scene `chase`, flown by its pilots from start to end. 0 for none.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u32>(0, 100_000))]
     pub flight: u32,
 }
 
@@ -31,7 +43,7 @@ pub struct FrameTimesRequest {
 const AFTERWARDS: [&str; 5] = ["bloom", "exposure", "flashes", "tone map", "smooth"];
 
 /// One scene's times, in milliseconds.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct FrameTimes {
     /// The scene.
     pub scene: String,
@@ -59,18 +71,7 @@ pub struct FrameTimes {
 impl FrameTimes {
     /// No times yet.
     pub(super) fn of(scene: &str) -> FrameTimes {
-        FrameTimes {
-            scene: scene.to_owned(),
-            first: 0.0,
-            parts: Parts::default(),
-            alone: Vec::new(),
-            processor: Vec::new(),
-            moments: Vec::new(),
-            fragments: Vec::new(),
-            counters: Counters::default(),
-            disk: None,
-            strokes: None,
-        }
+        FrameTimes { scene: scene.to_owned(), ..FrameTimes::default() }
     }
 
     /// How many times as long a frame takes as one from the same place without bodies and aurora: the ratio of the medians.

@@ -7,41 +7,31 @@ use std::hint::black_box;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use clap::Args;
 use glam::{DVec3, Vec3};
 
-use crate::chart::{Output, Provenance, Sheet, SheetError};
+use crate::chart::{ChartError, Output, Provenance, Sheet, quantile};
 use crate::compare::flight::hands::PACES;
-use crate::plot::{Axis, Figure, Guide, Panel, PlotError, Point, Scatter};
+use crate::plot::{Axis, Figure, Guide, Panel, Point, Scatter};
+use lensrunner::argument::whole;
 use lensrunner::render::gpu::types::Instance;
 use lensrunner::render::instances::swing::{Seen, Swing, swing_at};
 use lensrunner::scene::crew::Crew;
 use lensrunner::scene::mission::Difficulty;
-use lensrunner::scene::{self, GameConfig, SceneError};
+use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::{History, Moment};
 use lensrunner::spacetime::matter::gamma;
 use smooth::Smooth;
 
-/// What to measure.
-#[derive(Clone, Debug)]
+/// How the motion of a near body is told to the graphics card, smooth or by nodes: error against cost, while hands fly.
+#[derive(Args, Clone, Debug)]
 pub struct MotionRequest {
     /// Where the chart goes.
+    #[command(flatten)]
     pub output: Output,
-    /// Moments of each pace.
+    /// Moments at each pace.
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = whole::<usize>(1, 100_000))]
     pub moments: usize,
-}
-
-/// Why there is no chart.
-#[derive(Debug, thiserror::Error)]
-pub enum MotionError {
-    /// The mission is wrong.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// The sheet.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
-    /// The picture.
-    #[error(transparent)]
-    Plot(#[from] PlotError),
 }
 
 /// Columns of the sheet: displacement of points of the own ship in pixels of a picture 640 wide, and the processor's time for an image.
@@ -59,7 +49,7 @@ const WIDTHS: [f64; 3] = [1.0, 9.0, 64.0];
 const TIMES: (f64, f64) = (3.0, 0.37);
 
 /// Measures (or reads) `motion.csv`, draws `motion.png`; returns the files.
-pub fn run(request: &MotionRequest) -> Result<Vec<PathBuf>, MotionError> {
+pub fn run(request: &MotionRequest) -> Result<Vec<PathBuf>, ChartError> {
     let sheet = request.output.sheet("motion", || measure(request.moments))?;
     let mut files = vec![request.output.csv("motion")];
     files.extend(figure(&sheet).save(&request.output.folder, "motion")?);
@@ -74,10 +64,9 @@ struct Measured {
 }
 
 /// A row for each way and pace.
-pub fn measure(moments: usize) -> Result<Sheet, MotionError> {
+pub fn measure(moments: usize) -> Result<Sheet, ChartError> {
     let scene = scene::load(MISSION)?;
-    let mut sheet = Sheet::new(&COLUMNS);
-    sheet.notes = Provenance::now("").notes();
+    let mut sheet = Sheet::measured(&COLUMNS, "");
     for (seed, pace) in PACES.into_iter().enumerate() {
         let mut config = GameConfig::default();
         config.clock.pace = pace;
@@ -114,12 +103,10 @@ pub fn measure(moments: usize) -> Result<Sheet, MotionError> {
     Ok(sheet)
 }
 
-fn row(way: &str, pace: f64, Measured { mut errors, mut seconds }: Measured) -> [String; 6] {
-    errors.sort_by(f64::total_cmp);
-    seconds.sort_by(f64::total_cmp);
-    let at = |share: f64| errors[((errors.len() - 1) as f64 * share) as usize];
+fn row(way: &str, pace: f64, Measured { errors, seconds }: Measured) -> [String; 6] {
+    let at = |share: f64| quantile(errors.iter().copied(), share);
     let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-    let micro = 1e6 * seconds[seconds.len() / 2];
+    let micro = 1e6 * quantile(seconds, 0.5);
     [way.to_owned(), pace.to_string(), format!("{mean:.5}"), format!("{:.4}", at(0.99)), format!("{:.4}", at(1.0)), format!("{micro:.2}")]
 }
 

@@ -191,18 +191,9 @@ pub fn frame(area: Area, titles: &Titles, [x, y]: [Scale; 2], ticks_x: bool, sha
             }
         }
     }
-    shapes.push(Shape::Path {
-        points: vec![
-            [inner.x[0], inner.y[0]],
-            [inner.x[1], inner.y[0]],
-            [inner.x[1], inner.y[1]],
-            [inner.x[0], inner.y[1]],
-            [inner.x[0], inner.y[0]],
-        ],
-        color: GREY,
-        width: 1.0,
-        dash: 0.0,
-    });
+    let Area { x: [x0, x1], y: [y0, y1] } = inner;
+    let corners = vec![[x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]];
+    shapes.push(Shape::Path { points: corners, color: GREY, width: 1.0, dash: 0.0 });
     shapes.push(Shape::text([middle_x, area.y[0] + 12.0], titles.title, HEADING, INK, Anchor::Middle));
     shapes.push(Shape::text([middle_x, inner.y[1] + 31.0], titles.x, TEXT, INK, Anchor::Middle));
     shapes.push(Shape::Text {
@@ -259,18 +250,27 @@ pub fn guides(plane: &Plane, guides: &[Guide], upward: bool, avoid: &[[f64; 2]],
     }
 }
 
-/// Names with their colours in a row, from `at`, wrapped at `right`; returns the height used.
-pub fn legend(entries: &[(&str, super::Color)], at: [f64; 2], right: f64, shapes: &mut Vec<Shape>) -> f64 {
-    let [mut x, mut y] = at;
+/// Writes names with their colours at the lower end of `area`, in rows; returns what is left above them.
+pub fn legend(entries: &[(&str, super::Color)], area: Area, shapes: &mut Vec<Shape>) -> Area {
+    let [left, right] = [area.x[0] + 40.0, area.x[1] - 20.0];
+    let (mut x, mut row, mut placed) = (left, 0.0, Vec::new());
     for (name, color) in entries.iter().filter(|(name, _)| !name.is_empty()) {
         let whole = 30.0 + width(name, SMALL);
-        if x > at[0] && x + whole > right {
-            x = at[0];
-            y += 18.0;
+        if x > left && x + whole > right {
+            x = left;
+            row += 18.0;
         }
-        shapes.push(Shape::Disc { at: [x + 6.0, y], radius: 5.0, color: *color, filled: true });
-        shapes.push(Shape::text([x + 15.0, y], *name, SMALL, INK, Anchor::Start));
+        placed.push(([x, row], *name, *color));
         x += whole;
     }
-    y - at[1] + 18.0
+    if placed.is_empty() {
+        return area;
+    }
+    let bottom = area.y[1] - row - 18.0;
+    for ([x, row], name, color) in placed {
+        let y = bottom + 8.0 + row;
+        shapes.push(Shape::Disc { at: [x + 6.0, y], radius: 5.0, color, filled: true });
+        shapes.push(Shape::text([x + 15.0, y], name, SMALL, INK, Anchor::Start));
+    }
+    Area { y: [area.y[0], bottom], ..area }
 }

@@ -31,12 +31,9 @@ pub struct Series {
     pub values: Vec<Option<f64>>,
 }
 
-pub(super) fn draw(panel: &Bars, mut area: Area, shapes: &mut Vec<Shape>) {
+pub(super) fn draw(panel: &Bars, area: Area, shapes: &mut Vec<Shape>) {
     let entries: Vec<_> = panel.series.iter().enumerate().map(|(i, s)| (s.name.as_str(), color(i))).collect();
-    if entries.iter().any(|(name, _)| !name.is_empty()) {
-        area.y[1] -= axis::legend(&entries, [0.0, 0.0], area.x[1] - area.x[0] - 60.0, &mut Vec::new());
-        axis::legend(&entries, [area.x[0] + 40.0, area.y[1] + 8.0], area.x[1] - 20.0, shapes);
-    }
+    let mut area = axis::legend(&entries, area, shapes);
     let lines = panel.groups.iter().map(|name| name.lines().count()).max().unwrap_or(1).max(1);
     area.y[1] -= 15.0 * (lines as f64 - 1.0);
     let values = panel.series.iter().flat_map(|s| &s.values).filter_map(|v| *v);

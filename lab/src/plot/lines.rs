@@ -29,23 +29,15 @@ pub struct Line {
     pub name: String,
     /// Its points, in the order drawn; where one is not finite the curve is broken.
     pub points: Vec<[f64; 2]>,
-    /// Dashed instead of full.
-    pub dashed: bool,
     /// A disc at each point.
     pub dots: bool,
-    /// The colour's index; None takes the place in the list.
-    pub color: Option<usize>,
     /// Where it fails: red crosses.
     pub failed: Vec<[f64; 2]>,
 }
 
-pub(super) fn draw(panel: &Lines, mut area: Area, shapes: &mut Vec<Shape>) {
-    let ink = |i: usize| color(panel.lines[i].color.unwrap_or(i));
-    let entries: Vec<_> = panel.lines.iter().enumerate().map(|(i, line)| (line.name.as_str(), ink(i))).collect();
-    if entries.iter().any(|(name, _)| !name.is_empty()) {
-        area.y[1] -= axis::legend(&entries, [0.0, 0.0], area.x[1] - area.x[0] - 60.0, &mut Vec::new());
-        axis::legend(&entries, [area.x[0] + 40.0, area.y[1] + 8.0], area.x[1] - 20.0, shapes);
-    }
+pub(super) fn draw(panel: &Lines, area: Area, shapes: &mut Vec<Shape>) {
+    let entries: Vec<_> = panel.lines.iter().enumerate().map(|(i, line)| (line.name.as_str(), color(i))).collect();
+    let area = axis::legend(&entries, area, shapes);
     let all = || panel.lines.iter().flat_map(|line| line.points.iter().chain(&line.failed));
     let x = panel.x.fitted(all().map(|p| p[0]).chain(panel.guides_x.iter().map(|g| g.at)));
     let y = panel.y.fitted(all().map(|p| p[1]).chain(panel.guides.iter().map(|g| g.at)));
@@ -57,9 +49,9 @@ pub(super) fn draw(panel: &Lines, mut area: Area, shapes: &mut Vec<Shape>) {
         for piece in line.points.split(|p| !p.iter().all(|v| v.is_finite())).filter(|piece| !piece.is_empty()) {
             let points: Vec<_> = piece.iter().map(|p| plane.clamped(p[0], p[1])).collect();
             if line.dots {
-                shapes.extend(points.iter().map(|at| Shape::Disc { at: *at, radius: 3.0, color: ink(i), filled: true }));
+                shapes.extend(points.iter().map(|at| Shape::Disc { at: *at, radius: 3.0, color: color(i), filled: true }));
             }
-            shapes.push(Shape::Path { points, color: ink(i), width: 2.0, dash: if line.dashed { 6.0 } else { 0.0 } });
+            shapes.push(Shape::Path { points, color: color(i), width: 2.0, dash: 0.0 });
         }
     }
     for at in panel.lines.iter().flat_map(|line| &line.failed).map(|p| plane.clamped(p[0], p[1])) {

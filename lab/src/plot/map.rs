@@ -2,7 +2,7 @@
 
 use super::Guide;
 use super::axis::{self, Area, Axis, Plane, Scale, Titles, tick_text};
-use super::paint::{Anchor, Shape, width};
+use super::paint::{Anchor, Shape};
 use super::style::{Color, FAILED, INK, SMALL, WHITE, scale};
 
 /// A panel of coloured cells.
@@ -23,7 +23,7 @@ pub struct Map {
     /// Draws the colour scale beside the map.
     pub legend: bool,
     /// Values of the axis across to mark.
-    pub guides_x: Vec<Guide>,
+    pub marks: Vec<f64>,
     /// Values of the colour scale to mark; their words stand in its legend.
     pub guides: Vec<Guide>,
 }
@@ -38,7 +38,7 @@ pub(super) fn draw(panel: &Map, mut area: Area, shapes: &mut Vec<Shape>) {
     let plane = axis::frame(area, &titles, [range(&panel.x), range(&panel.y)], true, shapes);
     let colors = panel.colors.fitted(panel.values.iter().copied());
     cells(panel, &plane.inner, &colors, shapes);
-    guides_across(panel, &plane, shapes);
+    marks_across(panel, &plane, shapes);
     if panel.legend {
         legend(panel, right, plane.inner.y, &colors, shapes);
     }
@@ -77,20 +77,13 @@ fn cells(panel: &Map, inner: &Area, colors: &Scale, shapes: &mut Vec<Shape>) {
 }
 
 /// The marked values of the axis across.
-fn guides_across(panel: &Map, plane: &Plane, shapes: &mut Vec<Shape>) {
+fn marks_across(panel: &Map, plane: &Plane, shapes: &mut Vec<Shape>) {
     let [top, bottom] = plane.inner.y;
-    for guide in panel.guides_x.iter().filter(|guide| plane.x.holds(guide.at)) {
-        let [at, _] = plane.place(guide.at, plane.y.low());
+    for mark in panel.marks.iter().filter(|mark| plane.x.holds(**mark)) {
+        let [at, _] = plane.place(*mark, plane.y.low());
         // White under ink: seen on every colour.
         shapes.push(Shape::line([at, top], [at, bottom], WHITE, 3.0));
         shapes.push(Shape::Path { points: vec![[at, top], [at, bottom]], color: INK, width: 1.0, dash: 4.0 });
-        if guide.label.is_empty() {
-            continue;
-        }
-        // Under the upper edge, on paper.
-        let half = 0.5 * width(&guide.label, SMALL) + 3.0;
-        shapes.push(Shape::Rect { from: [at - half, top + 3.0], to: [at + half, top + 19.0], color: WHITE });
-        shapes.push(Shape::text([at, top + 11.0], guide.label.clone(), SMALL, INK, Anchor::Middle));
     }
 }
 

@@ -66,9 +66,7 @@ impl Shape {
     pub fn text(at: [f64; 2], text: impl Into<String>, size: f64, color: Color, anchor: Anchor) -> Shape {
         Shape::Text { at, text: text.into(), size, color, anchor, upward: false }
     }
-}
 
-impl Shape {
     /// The words of a text and where they are: left, top, right, bottom.
     pub fn bounds(&self) -> Option<(&str, [f64; 4])> {
         let Shape::Text { at: [x, y], text, size, anchor, upward, .. } = self else { return None };

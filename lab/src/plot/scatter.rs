@@ -53,14 +53,8 @@ const HEIGHT: f64 = 14.0;
 const CHOSEN: f64 = HEADING;
 
 pub(super) fn draw(panel: &Scatter, area: Area, shapes: &mut Vec<Shape>) {
-    let mut area = area;
     let entries: Vec<_> = panel.families.iter().enumerate().map(|(i, name)| (name.as_str(), color(i))).collect();
-    if !entries.is_empty() {
-        let mut names = Vec::new();
-        let used = axis::legend(&entries, [0.0, 0.0], area.x[1] - area.x[0] - 60.0, &mut names);
-        area.y[1] -= used;
-        axis::legend(&entries, [area.x[0] + 40.0, area.y[1] + 8.0], area.x[1] - 20.0, shapes);
-    }
+    let area = axis::legend(&entries, area, shapes);
     let x = panel.x.fitted(panel.points.iter().map(|p| p.x).chain(panel.guides_x.iter().map(|g| g.at)));
     let y = panel.y.fitted(panel.points.iter().map(|p| p.y).chain(panel.guides.iter().map(|g| g.at)));
     let under = shapes.len();

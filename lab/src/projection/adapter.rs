@@ -1,11 +1,11 @@
 //! The game's methods on a graphics adapter.
 
+use super::ProjectionRequest;
 use super::methods::FAMILIES;
 use super::race::Race;
 use super::score::{Score, Truth, tally};
 use super::time::TimedFrame;
-use super::{ChartError, ProjectionRequest};
-use crate::chart::{Provenance, Sheet};
+use crate::chart::{ChartError, Sheet};
 use lensrunner::lensing::adversarial::{Row, by_camera};
 use lensrunner::lensing::methods::Vertex;
 use lensrunner::render::method::Method;
@@ -86,8 +86,7 @@ pub fn measure(
     truths: &[Vec<Truth>],
     frames: &[TimedFrame],
 ) -> Result<Sheet, ChartError> {
-    let mut sheet = Sheet::new(COLUMNS);
-    sheet.notes = Provenance::now(&race.adapter()).notes();
+    let mut sheet = Sheet::measured(COLUMNS, &race.adapter());
     sheet.notes.push(("points".into(), format!("{}, {}", super::told(request, rows), super::draw::SAME)));
     let wanted = |method: &Method| request.methods.is_empty() || request.methods.iter().any(|wanted| wanted == method.name());
     let methods: Vec<_> = Method::all().filter(wanted).collect();

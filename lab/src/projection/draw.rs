@@ -20,8 +20,6 @@ struct Entry {
     /// Share of the rows with the wrong presence.
     wrong: f64,
     max: f64,
-    most: f64,
-    rms: f64,
     nanoseconds: f64,
     bytes: f64,
 }
@@ -50,29 +48,22 @@ impl Entry {
 
 fn entries(sheet: &Sheet) -> Vec<Entry> {
     let mut all: Vec<Entry> = Vec::new();
-    let mut counts: Vec<[f64; 3]> = Vec::new();
+    let mut counts: Vec<[f64; 2]> = Vec::new();
     for row in &sheet.rows {
         let name = sheet.text(row, "method");
         let at = all.iter().position(|entry| entry.name == name).unwrap_or_else(|| {
             let family = FAMILIES.iter().position(|family| *family == sheet.text(row, "family")).unwrap_or(0);
             let (nanoseconds, bytes) = (sheet.number(row, "nanoseconds"), sheet.number(row, "bytes"));
-            all.push(Entry { name: name.to_owned(), family, wrong: 0.0, max: 0.0, most: 0.0, rms: 0.0, nanoseconds, bytes });
-            counts.push([0.0; 3]);
+            all.push(Entry { name: name.to_owned(), family, wrong: 0.0, max: 0.0, nanoseconds, bytes });
+            counts.push([0.0; 2]);
             all.len() - 1
         });
-        let [answered, wrong, rows] =
-            [sheet.number(row, "answered"), sheet.number(row, "missing") + sheet.number(row, "false"), sheet.number(row, "rows")];
         let (entry, count) = (&mut all[at], &mut counts[at]);
-        *count = [count[0] + answered, count[1] + wrong, count[2] + rows];
+        let wrong = sheet.number(row, "missing") + sheet.number(row, "false");
+        *count = [count[0] + wrong, count[1] + sheet.number(row, "rows")];
         entry.max = entry.max.max(sheet.number(row, "max_degrees"));
-        entry.most = entry.most.max(sheet.number(row, "p999_degrees"));
-        let rms = sheet.number(row, "rms_degrees");
-        if answered > 0.0 {
-            entry.rms += rms * rms * answered;
-        }
     }
-    for (entry, [answered, wrong, rows]) in all.iter_mut().zip(counts) {
-        entry.rms = (entry.rms / answered.max(1.0)).sqrt();
+    for (entry, [wrong, rows]) in all.iter_mut().zip(counts) {
         entry.wrong = wrong / rows.max(1.0);
     }
     all
@@ -81,7 +72,7 @@ fn entries(sheet: &Sheet) -> Vec<Entry> {
 /// The same from the sheet of a graphics adapter.
 fn on_adapter(sheet: &Sheet) -> Panel {
     let entries = entries(sheet);
-    let mut panel = scatter(&entries, |e| e.max, LARGEST, false, (HALF_PIXEL, GUIDE), "");
+    let mut panel = scatter(&entries, false, "");
     let same = if sheet.note("points").is_some_and(|points| points.ends_with(SAME)) { ", the same points" } else { "" };
     panel.title = format!("On the graphics adapter{same}: {}", sheet.note("adapter").unwrap_or("unknown"));
     panel.x = Axis::log("nanoseconds a lookup, many at once");
@@ -99,12 +90,12 @@ fn unnamed(mut panel: Scatter) -> Scatter {
 const LARGEST: &str = "largest error, degrees (rain frame)";
 const GUIDE: &str = "half a pixel at 3840 over 60°: what lies lower cannot be seen";
 
-fn scatter(entries: &[Entry], y: impl Fn(&Entry) -> f64, y_label: &str, memory: bool, guide: (f64, &str), title: &str) -> Scatter {
+fn scatter(entries: &[Entry], memory: bool, title: &str) -> Scatter {
     // Against memory only methods with a table take part.
     let points = entries.iter().filter(|entry| !memory || entry.bytes > 0.0).map(|entry| Point {
         // What an adapter does for nothing beside its overhead is drawn at a nanosecond.
         x: if memory { entry.bytes } else { entry.nanoseconds.max(1.0) },
-        y: y(entry).max(LEAST_ERROR),
+        y: entry.max.max(LEAST_ERROR),
         label: entry.label(),
         family: entry.family,
         failed: entry.failed(),
@@ -118,13 +109,13 @@ fn scatter(entries: &[Entry], y: impl Fn(&Entry) -> f64, y_label: &str, memory: 
     Scatter {
         title: title.into(),
         x: Axis::log(x),
-        y: Axis::log(y_label),
+        y: Axis::log(LARGEST),
         points,
         families,
         pareto: true,
-        guides: vec![Guide { at: guide.0, label: guide.1.into() }],
+        guides: vec![Guide { at: HALF_PIXEL, label: GUIDE.into() }],
         guides_x: Vec::new(),
-        good_below: Some(guide.0),
+        good_below: Some(HALF_PIXEL),
     }
 }
 
@@ -179,7 +170,7 @@ fn nameless(name: &str) -> bool {
 /// the other, as wide as a page shows it.
 pub fn race(sheet: &Sheet, graphics: Option<&Sheet>) -> Figure {
     let entries = entries(sheet);
-    let panel = |memory: bool, title: &str| unnamed(scatter(&entries, |e| e.max, LARGEST, memory, (HALF_PIXEL, GUIDE), title));
+    let panel = |memory: bool, title: &str| unnamed(scatter(&entries, memory, title));
     let mut panels = vec![
         Panel::Scatter(panel(false, "On the processor: error against time (lower and further left is better)")),
         Panel::Scatter(panel(true, "Error against memory, of the methods that keep a table")),
@@ -197,26 +188,5 @@ pub fn race(sheet: &Sheet, graphics: Option<&Sheet>) -> Figure {
         columns: 1,
         panels,
         footer: footer(sheet),
-    }
-}
-
-/// Largest error, 99.9th percentile and rms, against time and memory.
-pub fn everything(sheet: &Sheet) -> Figure {
-    let entries = entries(sheet);
-    let mut panels = Vec::new();
-    for memory in [false, true] {
-        let guide = (HALF_PIXEL, "half a pixel");
-        panels.push(Panel::Scatter(scatter(&entries, |e| e.max, "largest error, degrees", memory, guide, "")));
-        panels.push(Panel::Scatter(scatter(&entries, |e| e.most, "99.9 % of errors below, degrees", memory, guide, "")));
-        panels.push(Panel::Scatter(scatter(&entries, |e| e.rms, "rms error, degrees", memory, (0.0005, "asked for"), "")));
-    }
-    Figure {
-        verdict: verdict(&entries).unwrap_or_default()[0].clone(),
-        title: "Projection: all errors".into(),
-        panels,
-        columns: 3,
-        size: [2100, 1300],
-        footer: footer(sheet),
-        ..Figure::default()
     }
 }

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 
 use super::draw::HALF_PIXEL;
-use super::{ChartError, ProjectionRequest, chosen};
-use crate::chart::{Provenance, Sheet};
+use super::{ProjectionRequest, chosen};
+use crate::chart::{ChartError, Provenance, Sheet};
 use crate::plot::{Axis, Figure, Guide, Map, Panel};
 use lensrunner::lensing::adversarial::POINTS;
 use lensrunner::lensing::methods::{Exact, Projector, Query};
@@ -70,9 +70,8 @@ impl Plane {
 
 /// One row of the sheet for each method, plane and φ; the errors at all r stand in it side by side.
 pub fn measure(request: &ProjectionRequest) -> Result<Sheet, ChartError> {
-    let mut sheet = Sheet::new(&["method", "L", "points", "phi"]);
+    let mut sheet = Sheet::measured(&["method", "L", "points", "phi"], "");
     sheet.columns.extend((1..=SIZE[0]).map(|k| format!("r{k}")));
-    sheet.notes = Provenance::now("").notes();
     sheet.notes.push((
         "cells".into(),
         format!(
@@ -127,7 +126,7 @@ pub fn draw(sheet: &Sheet) -> Figure {
             values,
             colors: Axis::log("error, degrees").between(SCALE[0], SCALE[1]),
             legend: i % planes.len() == planes.len() - 1,
-            guides_x: vec![Guide { at: plane.camera, label: String::new() }],
+            marks: vec![plane.camera],
             guides: vec![Guide { at: HALF_PIXEL, label: "½ px".into() }],
         }));
     }
@@ -154,8 +153,6 @@ fn verdict(sheet: &Sheet) -> String {
         let failed = lit.iter().filter(|error| error.is_nan() || **error > HALF_PIXEL).count();
         100.0 * failed as f64 / lit.len().max(1) as f64
     };
-    let mut methods: Vec<&str> = sheet.rows.iter().map(|row| sheet.text(row, "method")).collect();
-    methods.dedup();
-    let told: Vec<String> = methods.into_iter().map(|method| format!("{method} in {:.0} %", share(method))).collect();
+    let told: Vec<String> = sheet.distinct("method").into_iter().map(|method| format!("{method} in {:.0} %", share(method))).collect();
     format!("Places where a method is off by more than half a pixel: {}", told.join(", "))
 }

@@ -15,39 +15,28 @@ use std::path::PathBuf;
 pub use lensrunner::lensing::adversarial::{Row, rows};
 pub use score::{Score, Truth, score, truth};
 
-use super::chart::{Output, Provenance, Sheet, SheetError};
-use super::plot::PlotError;
+use clap::Args;
+use lensrunner::argument::whole;
 use lensrunner::spacetime::light::Order;
+
+use crate::chart::{ChartError, Output, Sheet};
 use methods::{CATALOGUE, Entry, FAMILIES, Method};
 
-/// What the chart is asked for.
-#[derive(Clone, Debug)]
+/// Every method of projection on the same adversarial points: error against time per lookup and against memory.
+#[derive(Args, Clone, Debug)]
 pub struct ProjectionRequest {
     /// Where it goes.
+    #[command(flatten)]
     pub output: Output,
-    /// Adversarial points for each method and order.
+    /// Adversarial points for each method and image order; about a tenth of them has no ray.
+    #[arg(long, value_name = "N", default_value_t = 340_000, value_parser = whole::<usize>(1, 1_000_000_000))]
     pub points: usize,
     /// Seed of the points.
+    #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
-    /// Methods to race; empty for all.
+    /// Only these methods, separated by commas.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub methods: Vec<String>,
-}
-
-/// Why there is no chart.
-#[derive(Debug, thiserror::Error)]
-pub enum ChartError {
-    /// The CSV.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
-    /// The picture.
-    #[error(transparent)]
-    Plot(#[from] PlotError),
-    /// No method has that name.
-    #[error("unknown method {name:?}: choose among {}", methods::names())]
-    Method {
-        /// The name asked for.
-        name: String,
-    },
 }
 
 /// Measures (or reads) and draws; returns the files written. The race on an adapter adds a sheet and a panel of its own.
@@ -65,7 +54,6 @@ pub fn run(request: &ProjectionRequest, race: Option<&mut race::Race>) -> Result
     };
     paths.extend(graphics.iter().map(|_| output.csv("projection-gpu")));
     paths.extend(draw::race(&sheet, graphics.as_ref()).save(&output.folder, "projection")?);
-    paths.extend(draw::everything(&sheet).save(&output.folder, "projection-all")?);
     // The maps' sheet is large, and a folder to be redrawn need not have it.
     if !output.redraw || output.csv("projection-maps").is_file() {
         let sheet = output.sheet("projection-maps", || maps::measure(request))?;
@@ -86,7 +74,7 @@ type Methods = Vec<(Entry, Box<dyn Method>)>;
 fn chosen(request: &ProjectionRequest) -> Result<Methods, ChartError> {
     let wrong = request.methods.iter().find(|name| !CATALOGUE.iter().any(|entry| entry.name == name.as_str()));
     if let Some(name) = wrong {
-        return Err(ChartError::Method { name: name.clone() });
+        return Err(ChartError::Input(format!("unknown method {name:?}: choose among {}", methods::names())));
     }
     let wanted = |entry: &&Entry| request.methods.is_empty() || request.methods.iter().any(|name| name == entry.name);
     Ok(CATALOGUE.iter().filter(wanted).filter_map(|entry| Some((*entry, methods::named(entry.name)?))).collect())
@@ -134,8 +122,7 @@ const COLUMNS: &[&str] = &[
 
 fn measure(request: &ProjectionRequest) -> Result<Sheet, ChartError> {
     let methods = chosen(request)?;
-    let mut sheet = Sheet::new(COLUMNS);
-    sheet.notes = Provenance::now("").notes();
+    let mut sheet = Sheet::measured(COLUMNS, "");
     eprintln!("timing {} methods", methods.len());
     let frames = time::frames(request.seed);
     let times = time::measure(&methods, &frames);

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::ProjectionRequest;
 use super::methods;
-use crate::chart::{Provenance, Sheet};
+use crate::chart::Sheet;
 use lensrunner::lensing::Scheme;
 use lensrunner::lensing::methods::{Exact, Projector, Query};
 use lensrunner::lensing::paper::{camera_mesh, slice_meshes};
@@ -51,22 +51,24 @@ const PRINTED: [(Scheme, usize, u8, bool, [f64; 2]); 24] = [
 
 /// Every row of both tables with the printed values and ours.
 pub fn measure(request: &ProjectionRequest) -> Sheet {
-    let mut sheet = Sheet::new(&[
-        "mesh",
-        "nodes",
-        "order",
-        "half",
-        "printed_max",
-        "printed_deviation",
-        "points",
-        "max",
-        "p999",
-        "deviation",
-        "worst_r",
-        "worst_phi",
-        "worst_L",
-    ]);
-    sheet.notes = Provenance::now("").notes();
+    let mut sheet = Sheet::measured(
+        &[
+            "mesh",
+            "nodes",
+            "order",
+            "half",
+            "printed_max",
+            "printed_deviation",
+            "points",
+            "max",
+            "p999",
+            "deviation",
+            "worst_r",
+            "worst_phi",
+            "worst_L",
+        ],
+        "",
+    );
     for (scheme, nodes, order, inside, printed) in PRINTED {
         let (name, mesh) =
             if scheme == Scheme::Paper { (format!("paper1-{nodes}"), "optimised") } else { (format!("paper1-uniform-{nodes}"), "uniform") };

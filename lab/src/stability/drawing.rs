@@ -1,7 +1,7 @@
 //! Drawing: how far surface points are displaced on the picture by ways to divide triangles, beside the judge's.
 
-use super::{Finding, StabilityError};
-use crate::chart::Output;
+use super::Finding;
+use crate::chart::{ChartError, Output};
 use crate::tessellation::{self, NAMES, TessellationRequest};
 
 /// Bound and limit, in pixels.
@@ -28,7 +28,7 @@ fn scene(name: &str) -> String {
 }
 
 /// A finding for each way and place.
-pub fn measure() -> Result<Vec<Finding>, StabilityError> {
+pub fn measure() -> Result<Vec<Finding>, ChartError> {
     let mut found = Vec::new();
     for (place, name) in PLACES {
         let request = TessellationRequest {

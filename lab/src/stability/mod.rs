@@ -18,35 +18,22 @@ pub mod straight;
 
 use std::path::PathBuf;
 
-use lensrunner::spacetime::orbit::OrbitError;
+use clap::Args;
 
-use crate::chart::{Output, Provenance, Sheet, SheetError};
-use crate::tessellation::TessellationError;
+use crate::chart::{ChartError, Output, Sheet};
 
-/// What is asked for.
-#[derive(Clone, Debug)]
+/// Where methods fail: a page with a number for each method at each place, and the tests that hold the rest.
+#[derive(Args, Clone, Debug)]
 pub struct StabilityRequest {
     /// Where page and sheet go.
+    #[command(flatten)]
     pub output: Output,
-    /// Leaves out pictures and the largest tables.
+    /// Leaves out pictures, and what must be baked first.
+    #[arg(long)]
     pub quick: bool,
-}
-
-/// Why there is no map.
-#[derive(Debug, thiserror::Error)]
-pub enum StabilityError {
-    /// The sheet.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
-    /// Pictures.
-    #[error(transparent)]
-    Drawing(#[from] TessellationError),
-    /// A flight has no start.
-    #[error(transparent)]
-    Orbit(#[from] OrbitError),
-    /// The page.
-    #[error("cannot write {0}: {1}")]
-    Write(PathBuf, std::io::Error),
+    /// Puts a fault for each test of the page into a copy of the committed sources and runs them there: each must fail.
+    #[arg(long, conflicts_with_all = ["redraw", "quick"])]
+    pub faults: bool,
 }
 
 /// The parts, in the order of the page.
@@ -95,7 +82,7 @@ impl Finding {
 }
 
 /// Measures all places.
-pub fn measure(quick: bool) -> Result<Vec<Finding>, StabilityError> {
+pub fn measure(quick: bool) -> Result<Vec<Finding>, ChartError> {
     let mut all = light::measure(quick);
     all.extend(matter::measure()?);
     if !quick {
@@ -106,16 +93,15 @@ pub fn measure(quick: bool) -> Result<Vec<Finding>, StabilityError> {
 }
 
 /// Measures (or reads) and writes `stability.csv` and `stability.md`; returns the files.
-pub fn run(request: &StabilityRequest) -> Result<Vec<PathBuf>, StabilityError> {
+pub fn run(request: &StabilityRequest) -> Result<Vec<PathBuf>, ChartError> {
     let output = &request.output;
     let sheet = output.sheet("stability", || {
-        let mut sheet = Sheet::new(&COLUMNS);
-        sheet.notes = Provenance::now("").notes();
+        let mut sheet = Sheet::measured(&COLUMNS, "");
         measure(request.quick)?.iter().for_each(|finding| sheet.push(finding.cells()));
-        Ok::<_, StabilityError>(sheet)
+        Ok::<_, ChartError>(sheet)
     })?;
     let page = output.folder.join("stability.md");
-    std::fs::write(&page, map::page(&sheet)).map_err(|error| StabilityError::Write(page.clone(), error))?;
+    std::fs::write(&page, map::page(&sheet)).map_err(|error| ChartError::Write(page.clone(), error.to_string()))?;
     Ok(vec![output.csv("stability"), page])
 }
 

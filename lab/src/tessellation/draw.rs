@@ -7,8 +7,7 @@ use crate::plot::{Axis, Figure, Guide, Line, Lines, Panel};
 
 /// A row for each scene: displacement against vertices, against time, and pixels that show something else.
 pub fn draw(sheet: &Sheet) -> Figure {
-    let mut scenes: Vec<&str> = sheet.rows.iter().map(|row| sheet.text(row, "scene")).collect();
-    scenes.dedup();
+    let scenes = sheet.distinct("scene");
     let panels = scenes.iter().flat_map(|scene| {
         [
             panel(sheet, scene, ("vertices", "vertices"), ("p99_px", "99 % of displacements below, px")),
@@ -39,7 +38,7 @@ fn panel(sheet: &Sheet, scene: &str, (cost, x): (&str, &str), (error, y): (&str,
         let place = |error: f64| if error.is_nan() { f64::INFINITY } else { error.max(LEAST) };
         let point = |row: &&Vec<String>| [sheet.number(row, cost), place(sheet.number(row, error))];
         let failed = rows.iter().filter(|row| sheet.text(row, "failed") == "1").map(point);
-        Line { name: name.into(), points: rows.iter().map(point).collect(), dots: true, failed: failed.collect(), ..Line::default() }
+        Line { name: name.into(), points: rows.iter().map(point).collect(), dots: true, failed: failed.collect() }
     };
     let guides = if error == "p99_px" { vec![Guide { at: OWN, label: "half a pixel".into() }] } else { Vec::new() };
     Panel::Lines(Lines {

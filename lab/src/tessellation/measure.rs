@@ -2,22 +2,21 @@
 
 use lensrunner::judge::case::Case;
 use lensrunner::judge::picture::{DEFAULT_PACKET, Picture, Quality};
-use lensrunner::render::gpu::targets::target;
+use lensrunner::render::Gpu;
 use lensrunner::render::gpu::types::Counters;
-use lensrunner::render::shot::{Moment, surroundings};
+use lensrunner::render::shot::Moment;
 use lensrunner::render::stage::Stage;
-use lensrunner::render::{Gpu, Renderer};
 use lensrunner::scene::{self, GameConfig};
 
+use super::TessellationRequest;
 use super::ways::{NAMES, Way};
-use super::{TessellationError, TessellationRequest};
-use crate::chart::{Provenance, Sheet, Timing};
+use crate::chart::{ChartError, Sheet, Timing, quantile};
 use crate::compare::deadline::Deadline;
 use crate::compare::measure::displacement::Effort;
 use crate::compare::measure::metrics::{Verdict, compare_with};
 use crate::compare::measure::probe::probe;
 use crate::contestant::Contestant;
-use crate::frame_times::whole::draw;
+use crate::offscreen::Offscreen;
 
 /// Error of each step of the judge's rays.
 const TOLERANCE: f64 = 1e-10;
@@ -49,10 +48,9 @@ const COLUMNS: [&str; 13] = [
 ];
 
 /// A row for each scene and way.
-pub fn measure(request: &TessellationRequest) -> Result<Sheet, TessellationError> {
-    let mut sheet = Sheet::new(&COLUMNS);
+pub fn measure(request: &TessellationRequest) -> Result<Sheet, ChartError> {
     let gpu = Gpu::headless()?;
-    sheet.notes = Provenance::now(&gpu.adapter.name).notes();
+    let mut sheet = Sheet::measured(&COLUMNS, &gpu.adapter.name);
     let base = GameConfig::default();
     let ways = Way::all(&request.bounds);
     let mut contestant = Contestant::default();
@@ -107,9 +105,8 @@ fn judged(case: &Case, judge: &Picture, contestant: &Contestant) -> Result<Seen,
 }
 
 fn seen(verdict: &Verdict) -> Seen {
-    let mut displaced: Vec<f64> = verdict.displaced.iter().filter(|px| px.is_finite()).map(|px| f64::from(*px)).collect();
-    displaced.sort_by(f64::total_cmp);
-    let at = |share: f64| displaced.get(((displaced.len().max(1) - 1) as f64 * share) as usize).copied().unwrap_or(f64::NAN);
+    let displaced: Vec<f64> = verdict.displaced.iter().filter(|px| px.is_finite()).map(|px| f64::from(*px)).collect();
+    let at = |share: f64| quantile(displaced.iter().copied(), share);
     let sum = |count: fn(&crate::compare::measure::metrics::Group) -> usize| verdict.groups.iter().map(count).sum::<usize>() as f64;
     Seen {
         mean: displaced.iter().sum::<f64>() / displaced.len().max(1) as f64,
@@ -127,13 +124,11 @@ fn times(
     ways: &[Way],
     base: &GameConfig,
     request: &TessellationRequest,
-) -> Result<Vec<(Timing, Counters)>, TessellationError> {
+) -> Result<Vec<(Timing, Counters)>, ChartError> {
     let scene = scene::load(name)?;
     let moment = Moment::new(&scene, base, 0.0, 0);
-    let format = wgpu::TextureFormat::Rgba8UnormSrgb;
-    let (_, view) = target(&gpu.device, "tessellation", request.size, format);
-    let mut renderer = Renderer::new(gpu, &surroundings(), format, request.size);
-    let stage = Stage::new(&mut renderer, &scene, base);
+    let mut offscreen = Offscreen::new(gpu, request.size);
+    let stage = Stage::new(&mut offscreen.renderer, &scene, base);
     let camera = stage.camera(moment.time(), &moment.ships());
     let mut found = vec![(Vec::new(), Counters::default()); ways.len()];
     for round in 0..=request.rounds {
@@ -141,13 +136,13 @@ fn times(
             let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &way.settings(base));
             // The first frame after another method's compiles and fills its tables.
             for _ in 0..2 {
-                draw(gpu, &mut renderer, &frame, &view)?;
+                offscreen.draw(&frame)?;
             }
-            let passes = renderer.timing().latest().iter().filter(|(label, _)| PASSES.contains(label));
+            let passes = offscreen.renderer.timing().latest().iter().filter(|(label, _)| PASSES.contains(label));
             let whole = passes.map(|(_, ms)| f64::from(*ms)).sum::<f64>();
             if round > 0 {
                 times.push(whole);
-                *counters = renderer.counters()?;
+                *counters = offscreen.renderer.counters()?;
             }
         }
     }

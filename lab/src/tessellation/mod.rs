@@ -11,50 +11,34 @@ pub use ways::NAMES;
 
 use std::path::PathBuf;
 
-use lensrunner::render::DeviceError;
-use lensrunner::render::gpu::readback::PictureError;
-use lensrunner::scene::SceneError;
+use clap::Args;
+use lensrunner::argument::whole;
+use lensrunner::scene::picture_size;
 
-use crate::chart::{Output, SheetError};
-use crate::plot::PlotError;
+use crate::chart::{ChartError, Output};
 
-/// What the chart is asked for.
-#[derive(Clone, Debug)]
+/// Ways to divide triangles: displacement of surface points on the picture against vertices and time.
+#[derive(Args, Clone, Debug)]
 pub struct TessellationRequest {
     /// Where it goes.
+    #[command(flatten)]
     pub output: Output,
-    /// Names or files of scenes.
+    /// Scenes: TOML files, or names in assets/scenes.
+    #[arg(long = "scene", value_name = "NAME|FILE", value_delimiter = ',', default_value = "ring,parade,galaxy")]
     pub scenes: Vec<String>,
     /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = picture_size)]
     pub size: [u32; 2],
-    /// Bounds, in pixels, for the ways that have one.
+    /// Bounds in pixels; 0.5, the game's own, is what the others are told against.
+    #[arg(long, value_name = "PX,…", value_delimiter = ',', default_value = "0.125,0.25,0.5,1,2,4,8")]
     pub bounds: Vec<f64>,
     /// Rounds of timing in which all ways take turns; the median counts.
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = whole::<usize>(1, 255))]
     pub rounds: usize,
 }
 
-/// Why there is no chart.
-#[derive(Debug, thiserror::Error)]
-pub enum TessellationError {
-    /// The CSV.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
-    /// The chart's picture.
-    #[error(transparent)]
-    Plot(#[from] PlotError),
-    /// A scene.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// There is no device to draw with.
-    #[error(transparent)]
-    Device(#[from] DeviceError),
-    /// A picture.
-    #[error(transparent)]
-    Picture(#[from] PictureError),
-}
-
 /// Measures (or reads) and draws; returns the files written.
-pub fn run(request: &TessellationRequest) -> Result<Vec<PathBuf>, TessellationError> {
+pub fn run(request: &TessellationRequest) -> Result<Vec<PathBuf>, ChartError> {
     let output = &request.output;
     let sheet = output.sheet("tessellation", || measure::measure(request))?;
     let files = draw::draw(&sheet).save(&output.folder, "tessellation")?;

@@ -9,35 +9,27 @@ pub mod ray;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use clap::Args;
 use glam::DVec3;
 
-use super::chart::{Output, Provenance, Sheet, SheetError};
-use super::plot::PlotError;
+use crate::chart::{ChartError, Output, Sheet};
 use crate::thin_disk::ray::{Impact, Ring, Screen, image, orbit_shift};
+use lensrunner::argument::whole;
 use lensrunner::judge::picture::{Crossing, World};
 use lensrunner::scene::disk::radial::page_thorne_flux;
 use lensrunner::spacetime::frames;
 use lensrunner::spacetime::matter::{ShipState, gamma};
 use lensrunner::spacetime::metric::river_speed;
 
-/// What to measure.
-#[derive(Clone, Debug)]
+/// A thin disk after Page and Thorne: error against rays per second, by the judge and by Gyoto where that is installed.
+#[derive(Args, Clone, Debug)]
 pub struct ThinDiskRequest {
     /// Where it goes.
+    #[command(flatten)]
     pub output: Output,
-    /// Pixels along each side of the picture that is compared.
+    /// Pixels along each side of the picture.
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = whole::<usize>(8, 1024))]
     pub pixels: usize,
-}
-
-/// Why there is no chart.
-#[derive(Debug, thiserror::Error)]
-pub enum ThinDiskError {
-    /// The CSV failed.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
-    /// The drawing failed.
-    #[error(transparent)]
-    Plot(#[from] PlotError),
 }
 
 /// The scene: Gyoto's own example of a Page–Thorne disk without spin, seen from 100 M at 1.22 rad, 0.314 rad wide, cut off at 50 M.
@@ -153,15 +145,14 @@ const COLUMNS: [&str; 9] =
     ["method", "tolerance", "rays", "rays_per_second", "shift_max", "shift_median", "flux_max", "flux_median", "coverage"];
 
 /// Measures, or takes the CSV that is there, and draws.
-pub fn run(request: &ThinDiskRequest) -> Result<Vec<PathBuf>, ThinDiskError> {
-    let sheet = request.output.sheet::<ThinDiskError>(NAME, || Ok(measure(request.pixels)))?;
+pub fn run(request: &ThinDiskRequest) -> Result<Vec<PathBuf>, ChartError> {
+    let sheet = request.output.sheet::<ChartError>(NAME, || Ok(measure(request.pixels)))?;
     let [svg, png] = draw::figure(&sheet).save(&request.output.folder, NAME)?;
     Ok(vec![request.output.csv(NAME), svg, png])
 }
 
 fn measure(pixels: usize) -> Sheet {
-    let mut sheet = Sheet::new(&COLUMNS);
-    sheet.notes = Provenance::now("").notes();
+    let mut sheet = Sheet::measured(&COLUMNS, "");
     let screen = screen(pixels);
     // Beyond what f64 resolves: the steps are then as short as rounding allows.
     let truth = judge(&screen, &RING, 1e-16);

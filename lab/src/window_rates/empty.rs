@@ -4,6 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
+use clap::Args;
+use lensrunner::scene::picture_size;
+
 use bevy::prelude::*;
 use bevy::render::{Render, RenderApp, RenderSystems};
 use bevy::window::PresentMode;
@@ -26,10 +29,24 @@ pub fn arguments([width, height]: [u32; 2], frames: u32, table: &Path) -> Vec<St
 #[derive(Resource, Clone)]
 struct Times(Instant, Arc<Mutex<Vec<f64>>>);
 
-/// Opens the window, shows `frames` frames, and writes their times as the game does.
-pub fn show([width, height]: [u32; 2], frames: u32, table: &Path) -> std::io::Result<()> {
+/// The empty window that `chart window` opens.
+#[derive(Args, Clone, Debug)]
+pub struct EmptyWindowRequest {
+    /// Width and height in pixels.
+    #[arg(long, value_parser = picture_size)]
+    size: [u32; 2],
+    /// Frames that are shown.
+    #[arg(long)]
+    frames: u32,
+    /// The file for their times.
+    #[arg(long)]
+    timings: PathBuf,
+}
+
+/// Opens the window, shows the frames, and writes their times as the game does.
+pub fn show(request: EmptyWindowRequest) -> std::io::Result<()> {
+    let EmptyWindowRequest { size: [width, height], frames, timings } = request;
     let times = Times(Instant::now(), Arc::default());
-    let file: PathBuf = table.into();
     let mut app = App::new();
     // As the game's window.
     let window = Window { resolution: (width, height).into(), present_mode: PresentMode::AutoVsync, ..default() };
@@ -51,5 +68,5 @@ pub fn show([width, height]: [u32; 2], frames: u32, table: &Path) -> std::io::Re
     for seconds in times.1.lock().unwrap_or_else(PoisonError::into_inner).iter() {
         text += &format!("{seconds:.4},playing,0\n");
     }
-    std::fs::write(file, text)
+    std::fs::write(timings, text)
 }

@@ -9,16 +9,16 @@ pub mod empty;
 pub mod rates;
 pub mod sides;
 
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus, Stdio};
+use std::process::{Command, Stdio};
 
-use thiserror::Error;
+use clap::Args;
+use lensrunner::argument::whole;
+use lensrunner::render::Gpu;
+use lensrunner::scene::picture_size;
 
-use crate::chart::{Output, Provenance, Sheet, SheetError};
-use crate::dial::DialError;
-use lensrunner::render::{DeviceError, Gpu};
-use lensrunner::scene::SceneError;
+use crate::chart::{ChartError, DEFAULT_FOLDER, Sheet};
+use crate::say::say;
 use rates::{Rates, rates};
 
 /// The scene that is played.
@@ -31,76 +31,50 @@ const SETTLED: f64 = 2.0;
 pub const COLUMNS: [&str; 9] =
     ["size", "what", "round", "frames", "frames/s", "least over half a second", "share of the empty window's", "its share", "rung"];
 
-/// What to measure.
-#[derive(Clone, Debug)]
+/// Frame rates of the chase in a window, beside an empty window of the same engine; needs a display.
+#[derive(Args, Clone, Debug)]
 pub struct WindowRequest {
-    /// Where the sheet goes.
-    pub output: Output,
-    /// Sizes of the window, in pixels.
+    /// The folder for what is written.
+    #[arg(short, value_name = "DIR", default_value = DEFAULT_FOLDER)]
+    pub output: PathBuf,
+    /// Widths and heights in pixels.
+    #[arg(long = "size", value_name = "WxH,…", value_delimiter = ',', default_value = "1280x720,1920x1080", value_parser = picture_size)]
     pub sizes: Vec<[u32; 2]>,
     /// Frames of each run.
+    #[arg(long, value_name = "N", default_value_t = 400, value_parser = whole::<u32>(50, 100_000))]
     pub frames: u32,
     /// How often all runs take turns.
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = whole::<u32>(1, 100))]
     pub rounds: u32,
-}
-
-/// Why there are no rates.
-#[derive(Debug, Error)]
-pub enum WindowError {
-    /// There is no display.
-    #[error("there is no display to open a window on: start it under a display, for instance xvfb-run -s '-screen 0 1920x1080x24'")]
-    Display,
-    /// A program could not be started.
-    #[error("cannot run {0}: {1}")]
-    Run(PathBuf, io::Error),
-    /// A program failed.
-    #[error("{0} ended with {1}")]
-    Failed(PathBuf, ExitStatus),
-    /// A program wrote too little.
-    #[error("{0}: too few frames in play to tell a rate")]
-    Short(PathBuf),
-    /// There is nothing to draw with.
-    #[error(transparent)]
-    Device(#[from] DeviceError),
-    /// A table cannot be read or written.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
-    /// No pictures.
-    #[error(transparent)]
-    Dial(#[from] DialError),
-    /// The scene cannot be read.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// A file cannot be written.
-    #[error("cannot write {0}: {1}")]
-    Write(PathBuf, String),
 }
 
 /// What is run in turn: its name, and the setting of the game; None: the empty window.
 const RUNS: [(&str, Option<&str>); 4] =
     [("empty window", None), ("automatic", Some("automatic")), ("high", Some("high")), ("empty window", None)];
 
+const NO_DISPLAY: &str =
+    "there is no display to open a window on: start it under a display, for instance xvfb-run -s '-screen 0 1920x1080x24'";
+
 /// Measures, writes `window.csv` and the pictures of the rung that is used most, and says what came out.
-pub fn run(request: &WindowRequest, out: &mut impl Write) -> Result<Vec<PathBuf>, WindowError> {
+pub fn run(request: &WindowRequest) -> Result<Vec<PathBuf>, ChartError> {
     if std::env::var_os("DISPLAY").is_none_or(|display| display.is_empty()) {
-        return Err(WindowError::Display);
+        return Err(ChartError::Failed(NO_DISPLAY.into()));
     }
-    let here = std::env::current_exe().map_err(|error| WindowError::Run("this program".into(), error))?;
+    let here = std::env::current_exe().map_err(|error| ChartError::Program("this program".into(), error.to_string()))?;
     let game = here.with_file_name(format!("lensrunner{}", std::env::consts::EXE_SUFFIX));
-    let mut sheet = Sheet::new(&COLUMNS);
-    sheet.notes = Provenance::now(&Gpu::headless()?.adapter_name()).notes();
+    let mut sheet = Sheet::measured(&COLUMNS, &Gpu::headless()?.adapter_name());
     let mut paths = Vec::new();
     for size in &request.sizes {
         let mut used = Vec::new();
         for round in 1..=request.rounds {
             let mut taken = Vec::new();
             for (what, quality) in RUNS {
-                let table = request.output.csv("window-times");
+                let table = request.output.join("window-times.csv");
                 let rows = match quality {
                     None => play(&here, &table, &empty::arguments(*size, request.frames, &table))?,
                     Some(quality) => play(&game, &table, &arguments(quality, *size, request.frames, &table))?,
                 };
-                let rates = rates(&rows, SETTLED).ok_or(WindowError::Short(table.clone()))?;
+                let rates = rates(&rows, SETTLED).ok_or_else(|| too_few(&table))?;
                 if quality == Some("automatic") {
                     used.push(rates.clone());
                 }
@@ -109,16 +83,15 @@ pub fn run(request: &WindowRequest, out: &mut impl Write) -> Result<Vec<PathBuf>
             }
             let empty = 0.5 * (taken[0].1.mean + taken[RUNS.len() - 1].1.mean);
             for (what, rates) in taken {
-                let words = write_row(&mut sheet, *size, what, round, &rates, empty);
-                _ = writeln!(out, "{words}");
+                say(write_row(&mut sheet, *size, what, round, &rates, empty));
             }
-            sheet.save(&request.output.csv("window"))?;
+            sheet.save(&request.output.join("window.csv"))?;
         }
         if let Some(rates) = used.last() {
-            paths.push(sides::draw(rates.rung, *size, SEED, &request.output.folder, out)?);
+            paths.push(sides::draw(rates.rung, *size, SEED, &request.output)?);
         }
     }
-    paths.insert(0, request.output.csv("window"));
+    paths.insert(0, request.output.join("window.csv"));
     Ok(paths)
 }
 
@@ -151,14 +124,19 @@ fn arguments(quality: &str, [width, height]: [u32; 2], frames: u32, table: &Path
 }
 
 /// Runs a program that writes its times to `table`.
-fn play(program: &Path, table: &Path, arguments: &[String]) -> Result<Vec<rates::Row>, WindowError> {
+fn play(program: &Path, table: &Path, arguments: &[String]) -> Result<Vec<rates::Row>, ChartError> {
     if let Some(folder) = table.parent() {
-        std::fs::create_dir_all(folder).map_err(|error| WindowError::Write(folder.into(), error.to_string()))?;
+        std::fs::create_dir_all(folder).map_err(|error| ChartError::Write(folder.into(), error.to_string()))?;
     }
+    let failed = |reason: String| ChartError::Program(program.display().to_string(), reason);
     let ran = Command::new(program).args(arguments).stdout(Stdio::null()).stderr(Stdio::null()).status();
-    let status = ran.map_err(|error| WindowError::Run(program.into(), error))?;
+    let status = ran.map_err(|error| failed(error.to_string()))?;
     if !status.success() {
-        return Err(WindowError::Failed(program.into(), status));
+        return Err(failed(format!("ended with {status}")));
     }
-    rates::read(&Sheet::load(table)?).ok_or_else(|| WindowError::Short(table.into()))
+    rates::read(&Sheet::load(table)?).ok_or_else(|| too_few(table))
+}
+
+fn too_few(table: &Path) -> ChartError {
+    ChartError::Failed(format!("{}: too few frames in play to tell a rate", table.display()))
 }

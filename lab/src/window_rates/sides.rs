@@ -1,6 +1,5 @@
 //! Moments of the chase on a rung beside everything as configured, one below the other: the part about the player's ship.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use lensrunner::render::quality::knobs::turned;
@@ -8,14 +7,16 @@ use lensrunner::render::quality::ladder::ladder;
 use lensrunner::render::quality::prices::Prices;
 use lensrunner::scene;
 
-use super::{SCENE, WindowError};
+use super::SCENE;
+use crate::chart::ChartError;
 use crate::dial::moments::{Bench, Case, class_of};
+use crate::say::say;
 
 /// Moments, T in r_s/c.
 const MOMENTS: [f64; 3] = [2.0, 12.0, 24.0];
 
 /// Writes `window-WIDTHxHEIGHT.png`: left the finest, right the rung (a number from 1), and says their FLIP.
-pub fn draw(rung: usize, size: [u32; 2], seed: u64, folder: &Path, out: &mut impl Write) -> Result<PathBuf, WindowError> {
+pub fn draw(rung: usize, size: [u32; 2], seed: u64, folder: &Path) -> Result<PathBuf, ChartError> {
     let rungs = ladder(Prices::shipped(), class_of(&scene::load(SCENE)?));
     let rung = &rungs[rung.clamp(1, rungs.len()) - 1];
     let mut bench = Bench::new(size)?;
@@ -28,7 +29,7 @@ pub fn draw(rung: usize, size: [u32; 2], seed: u64, folder: &Path, out: &mut imp
         let finest = bench.picture(&shown, &shown.finest)?;
         let taken = bench.picture(&shown, &turned(&shown.finest, &rung.steps))?;
         let error = bench.error(&finest, &taken);
-        _ = writeln!(out, "T = {at}: {}; FLIP {error:.3}, predicted at most {:.3}", rung.says(), rung.error);
+        say(format_args!("T = {at}: {}; FLIP {error:.3}, predicted at most {:.3}", rung.says(), rung.error));
         for (column, side) in [finest, taken].into_iter().enumerate() {
             for (x, y) in (0..high).flat_map(|y| (0..wide).map(move |x| (x, y))) {
                 let at = 4 * ((y + top) * width + x + left) as usize;
@@ -38,6 +39,6 @@ pub fn draw(rung: usize, size: [u32; 2], seed: u64, folder: &Path, out: &mut imp
         }
     }
     let path = folder.join(format!("window-{width}x{height}.png"));
-    picture.save(&path).map_err(|error| WindowError::Write(path.clone(), error.to_string()))?;
+    picture.save(&path).map_err(|error| ChartError::Write(path.clone(), error.to_string()))?;
     Ok(path)
 }

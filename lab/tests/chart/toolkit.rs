@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use lensrunner_lab::chart::{Output, Provenance, Sheet, SheetError, Timing, interleaved, provenance, thread_time, times_the_first};
+use lensrunner_lab::chart::{
+    Output, Provenance, Sheet, SheetError, Timing, interleaved, provenance, quantile, thread_time, times_the_first,
+};
 
 #[test]
 fn a_sheet_comes_back_from_its_csv() {
@@ -31,6 +33,13 @@ fn contestants_take_turns() {
     assert_eq!(*order.borrow(), [0, 1, 0, 1, 0, 1, 0, 1]);
     assert_eq!(times.len(), 2);
     assert_eq!(Timing::of(vec![3.0, 1.0, 2.0]), Timing { median: 2.0, least: 1.0, most: 3.0 });
+}
+
+#[test]
+fn quantiles_lie_between_neighbours() {
+    assert_eq!([0.0, 0.5, 1.0].map(|q| quantile([3.0, 1.0, 2.0, 4.0], q)), [1.0, 2.5, 4.0]);
+    assert_eq!(quantile([7.0], 0.99), 7.0);
+    assert!(quantile([], 0.5).is_nan());
 }
 
 /// The first round does not count, the next goes backwards.

@@ -39,7 +39,7 @@ fn everything() -> Figure {
                 dots: true,
                 ..Line::default()
             },
-            Line { name: "dashed".into(), points: vec![[0.0, 3.0], [3.0, 0.0]], dashed: true, ..Line::default() },
+            Line { name: "straight".into(), points: vec![[0.0, 3.0], [3.0, 0.0]], ..Line::default() },
         ],
         ..Lines::default()
     };
@@ -62,7 +62,7 @@ fn everything() -> Figure {
         values: vec![1e-4, 1e-3, 1e-2, f64::NAN, f64::NEG_INFINITY, 1.0],
         colors: Axis::log("degrees").between(1e-4, 1.0),
         legend: true,
-        guides_x: vec![Guide { at: 10.0, label: "r = L".into() }],
+        marks: vec![10.0],
         guides: vec![Guide { at: 0.008, label: "½ px".into() }],
     };
     Figure {
@@ -88,7 +88,7 @@ fn one_figure_becomes_svg_and_png() {
         "exact φ ψ ≤ × °",
         "broken",
         "half a pixel",
-        "dashed",
+        "straight",
         "theirs",
         "lensrunner-lab chart",
     ] {

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use lensrunner_lab::chart::{Provenance, Sheet};
-use lensrunner_lab::products::made::{Record, made, plain};
+use lensrunner_lab::products::made::{Made, Record, Standing, made, standing};
 use lensrunner_lab::products::make::{MakeRequest, duration, is_done, make};
-use lensrunner_lab::products::{DOCUMENTS, Made, PRODUCTS, Product, Program, Run, Standing, standing};
+use lensrunner_lab::products::{DOCUMENTS, Product, plain};
 
 use crate::support::{Folder, root};
 
@@ -24,48 +24,39 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
 }
 
-/// Every path of the table, from the root.
-fn paths() -> Vec<String> {
-    PRODUCTS.iter().flat_map(Product::paths).map(|path| format!("{DOCUMENTS}/{path}")).collect()
+fn products() -> Vec<Product> {
+    lensrunner_lab::products::products().unwrap()
 }
 
-fn is_in_table(path: &str) -> bool {
-    paths().iter().any(|known| known == path || (known.ends_with('/') && path.starts_with(known.as_str())))
+/// Every path of the table, from the root.
+fn paths() -> Vec<String> {
+    products().iter().flat_map(Product::paths).map(|path| format!("{DOCUMENTS}/{path}")).collect()
 }
 
 #[test]
-fn the_table_names_only_what_exists() {
-    let root = root();
-    for path in paths() {
-        assert!(root.join(&path).exists(), "{path} is in the table and not there");
+fn the_table_names_only_what_exists_and_nothing_twice() {
+    let (root, paths, products) = (root(), paths(), products());
+    for path in &paths {
+        assert!(root.join(path).exists(), "{path} is in the table and not there");
     }
-    for product in PRODUCTS {
-        for source in product.all_sources().filter(|source| !source.starts_with(":(")) {
-            let found = if let Some(name) = source.strip_prefix("assets/*/") {
-                ["scenes", "missions"].iter().any(|folder| root.join("assets").join(folder).join(name).is_file())
-            } else {
-                root.join(source).exists()
+    for product in &products {
+        for source in &product.sources {
+            let found = match source.strip_prefix("assets/*/") {
+                Some(name) => ["scenes", "missions"].iter().any(|folder| root.join("assets").join(folder).join(name).is_file()),
+                None => root.join(source.trim_start_matches(":(exclude)")).exists(),
             };
             assert!(found, "{}: {source} is not there", product.name);
         }
-        for excluded in product.all_sources().filter_map(|source| source.strip_prefix(":(exclude)")) {
-            assert!(root.join(excluded).exists(), "{}: {excluded} is not there", product.name);
-        }
     }
-}
-
-#[test]
-fn nothing_is_made_twice() {
-    let names: BTreeSet<_> = PRODUCTS.iter().map(|product| product.name).collect();
-    let all = paths();
-    assert_eq!(names.len(), PRODUCTS.len());
-    assert_eq!(all.iter().collect::<BTreeSet<_>>().len(), all.len());
+    assert_eq!(products.iter().map(|product| &product.name).collect::<BTreeSet<_>>().len(), products.len());
+    assert_eq!(paths.iter().collect::<BTreeSet<_>>().len(), paths.len());
 }
 
 #[test]
 fn every_figure_of_the_documents_is_in_the_table() {
     let root = root();
-    let documents = files(&root.join(DOCUMENTS));
+    let (documents, paths) = (files(&root.join(DOCUMENTS)), paths());
+    let is_in_table = |path: &str| paths.iter().any(|known| known == path || (known.ends_with('/') && path.starts_with(known.as_str())));
     for path in documents.iter().filter(|path| is_made(path)) {
         let path = path.strip_prefix(&root).unwrap().to_str().unwrap();
         assert!(is_in_table(path), "{path} is not in the table");
@@ -92,26 +83,25 @@ fn pages_say_the_commands_of_the_table() {
         words.sort();
         words
     };
+    let products = products();
     for name in ["projection", "disk", "aurora", "bvh", "trace", "flight", "tessellation"] {
-        let product = PRODUCTS.iter().find(|product| product.name == name).unwrap();
+        let run = products.iter().find(|product| product.name == name).unwrap().runs[0].strip_prefix("lensrunner-lab ").unwrap();
         let page = std::fs::read_to_string(root().join(format!("docs/lab/{name}.md"))).unwrap();
         let said = page.lines().filter_map(|line| line.trim().strip_prefix("lab/run ")).map(|line| line.split(" #").next().unwrap());
-        let wanted = sorted(product.runs[0].arguments);
-        assert!(said.map(sorted).any(|said| said == wanted), "docs/lab/{name}.md should say: lab/run {}", product.runs[0].arguments);
+        let wanted = sorted(run);
+        assert!(said.map(sorted).any(|said| said == wanted), "docs/lab/{name}.md should say: lab/run {run}");
     }
 }
 
 #[test]
-fn quick_runs_write_what_full_ones_do() {
-    for product in PRODUCTS.iter().filter(|product| !product.quick.is_empty()) {
-        let printed = |runs: &[Run]| runs.iter().filter_map(|run| run.printed).collect::<Vec<_>>();
-        assert_eq!(printed(product.runs), printed(product.quick), "{}", product.name);
-        for run in product.runs.iter().chain(product.quick) {
-            assert!(run.printed.is_some() || run.arguments.contains("{}"), "{}: {}", product.name, run.arguments);
+fn every_run_writes_to_its_folder_in_small_too() {
+    for product in products().iter().filter(|product| !product.quick.is_empty()) {
+        for runs in [&product.runs, &product.quick] {
+            let printed: Vec<&str> = runs.iter().filter_map(|run| Some(run.split_once(" > {}/")?.1)).collect();
+            assert!(printed.iter().all(|file| product.files.iter().any(|known| known == file)), "{}: {printed:?}", product.name);
+            assert!(runs.iter().all(|run| run.contains("{}")), "{}: {runs:?}", product.name);
         }
     }
-    let whole: f64 = PRODUCTS.iter().filter(|product| !product.quick.is_empty()).map(|product| product.seconds[1]).sum();
-    assert!(whole < 600.0, "--quick would take {whole} s");
 }
 
 /// A repository of its own with one commit.
@@ -141,8 +131,8 @@ fn a_changed_source_makes_stale() {
     let folder = Folder::new();
     let root = folder.path();
     let commit = repository(root);
-    let stands = |commit: &str, sources: &[&'static str]| standing(root, commit, sources.iter().copied());
-    let sources = ["src/a.rs", "src/drawing", ":(exclude)src/drawing/draw.rs"];
+    let stands = |commit: &str, sources: &[String]| standing(root, commit, sources);
+    let sources = ["src/a.rs", "src/drawing", ":(exclude)src/drawing/draw.rs"].map(str::to_owned);
     assert_eq!(stands(&commit, &sources), Standing::Fresh);
     // What is not among the sources, or excluded, does not count.
     std::fs::write(root.join("src/b.rs"), "two").unwrap();
@@ -159,46 +149,15 @@ fn a_changed_source_makes_stale() {
     assert_eq!(stands("", &sources), Standing::Unknown);
 }
 
-const ONE: Product = Product {
-    name: "one",
-    runs: &[Run { program: Program::Lab, arguments: "chart one --points 3 -o {}", printed: None }],
-    quick: &[Run { program: Program::Lab, arguments: "chart one --points 1 -o {}", printed: None }],
-    folder: "",
-    files: &["one.csv"],
-    grows: false,
-    sources: &[&["src/a.rs"]],
-    seconds: [1.0, 1.0],
-};
-
-/// Prints its help into a file, which is then a product.
-static HELP: [Product; 2] = [
-    Product {
-        name: "help",
-        runs: &[Run { program: Program::Lab, arguments: "--help", printed: Some("help.txt") }],
-        quick: &[],
-        folder: "deep",
-        files: &["help.txt"],
-        ..ONE
-    },
-    Product {
-        name: "broken",
-        files: &["other.txt"],
-        runs: &[Run { program: Program::Lab, arguments: "chart none", printed: None }],
-        ..ONE
-    },
-];
+/// A product of one command, which depends on one file.
+fn product(name: &str, run: &str, quick: &str, file: &str) -> Product {
+    let one = |text: &str| vec![text.to_owned()];
+    let (runs, quick, files, sources) = (one(run), one(quick), one(file), one("src/a.rs"));
+    Product { name: name.into(), runs, quick, files, sources, ..Product::default() }
+}
 
 fn request(root: &Path) -> MakeRequest {
-    MakeRequest {
-        root: root.to_owned(),
-        folder: root.join("docs"),
-        workshop: root.join("out"),
-        quick: false,
-        again: false,
-        only: Vec::new(),
-        times: root.join("times.toml"),
-        adapter: "llvmpipe".into(),
-    }
+    MakeRequest { root: root.to_owned(), output: Some(root.join("docs")), ..MakeRequest::default() }
 }
 
 #[test]
@@ -207,43 +166,42 @@ fn what_is_done_is_left() {
     let root = folder.path();
     let commit = repository(root);
     let request = request(root);
+    let one = product("one", "lensrunner-lab chart one --points 3 -o {}", "lensrunner-lab chart one --points 1 -o {}", "one.csv");
     let mut sheet = Sheet::new(&["x"]);
     let by = |command: &str| Provenance { commit: commit.clone(), command: command.into(), ..Provenance::now("llvmpipe") };
-    let done = |request: &MakeRequest| is_done(&ONE, request, &Record::load(&request.folder).unwrap());
+    let done = |request: &MakeRequest| is_done(&one, request, &Record::load(&request.folder()).unwrap());
     assert!(!done(&request), "there is nothing");
     // Made by hand, with its options in another order.
     sheet.notes = by("lensrunner-lab chart one -o docs --points 3").notes();
-    sheet.save(&request.folder.join("one.csv")).unwrap();
+    sheet.save(&request.folder().join("one.csv")).unwrap();
     assert!(done(&request));
     assert!(!done(&MakeRequest { quick: true, ..request.clone() }), "with other arguments");
     // The record counts for as long as the sheet is of the same commit.
-    let mut record = Record::load(&request.folder).unwrap();
-    let recorded = Made { commands: ONE.commands(true), on: by(""), seconds: 2.0, told: true };
+    let mut record = Record::load(&request.folder()).unwrap();
+    let recorded = Made { commands: one.commands(true), on: by(""), seconds: 2.0, guessed: false };
     record.put("one", &recorded).unwrap();
     assert!(!done(&request) && done(&MakeRequest { quick: true, ..request.clone() }));
-    let found = made(root, &request.folder, &ONE, &Record::load(&request.folder).unwrap()).unwrap();
+    let found = made(root, &request.folder(), &one, &Record::load(&request.folder()).unwrap()).unwrap();
     assert_eq!((found.on.adapter.as_str(), found.seconds), ("llvmpipe", 2.0));
     std::fs::write(root.join("src/a.rs"), "two").unwrap();
     assert!(!done(&request) && !done(&MakeRequest { quick: true, ..request.clone() }), "with another source");
 }
 
 #[test]
-fn a_product_is_made_once_and_a_broken_one_is_told() {
+fn a_product_is_made_and_a_broken_one_is_told() {
     let folder = Folder::new();
     let root = folder.path();
     repository(root);
-    // The program beside which the others lie is this test; that of the laboratory is brought there by its own path.
+    // It prints its help into a file, which is then a product.
+    let help = Product { folder: "deep".into(), ..product("help", "lensrunner-lab --help > {}/help.txt", "", "help.txt") };
+    let broken = product("broken", "lensrunner-lab chart none -o {}", "", "other.txt");
     let program = Path::new(env!("CARGO_BIN_EXE_lensrunner-lab"));
-    let request = MakeRequest { only: vec!["help".into()], ..request(root) };
-    let run = |request: &MakeRequest| lensrunner_lab::products::make::make_with(&HELP, request, program).unwrap();
-    assert!(run(&request).is_empty());
-    let file = request.folder.join("deep/help.txt");
-    assert!(std::fs::read_to_string(&file).unwrap().contains("Usage"));
-    assert!(std::fs::read_to_string(&request.times).unwrap().contains("help"));
-    // The second time it is left. Its commit is that of the project, which this repository does not know, so that it is told in the record.
-    let broken = MakeRequest { only: vec!["broken".into()], ..request.clone() };
-    assert_eq!(run(&broken), ["broken"]);
-    assert!(make(PRODUCTS, &MakeRequest { only: vec!["nothing".into()], ..request }).is_err());
+    let run = |only: &str| make(&[help.clone(), broken.clone()], &MakeRequest { only: vec![only.into()], ..request(root) }, program);
+    assert!(run("help").unwrap().is_empty());
+    assert!(std::fs::read_to_string(root.join("docs/deep/help.txt")).unwrap().contains("Usage"));
+    assert_eq!(Record::load(&root.join("docs")).unwrap().of("help").unwrap().commands, ["lensrunner-lab --help"]);
+    assert_eq!(run("broken").unwrap(), ["broken"]);
+    assert!(run("nothing").is_err());
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! `lensrunner-lab compare --flight`: seeded chases flown by the autopilot or by seeded hands, judged at many moments.
 
 use crate::say::say;
-use std::path::PathBuf;
 use std::time::Instant;
 
 use super::eye::{Eye, eye};
@@ -12,10 +11,10 @@ use super::moments::{choose, survey};
 use crate::compare::Shown;
 use crate::compare::command::{CompareError, Contestant};
 use crate::compare::fault::{Fault, Kind, main_fault};
-use crate::compare::judged::{Judged, Terms, judge};
+use crate::compare::judged::{Judged, judge};
 use crate::compare::random::case_file::CaseFile;
 use crate::compare::random::collect;
-use crate::compare::random::command::{Keep, bar, check_terms, configuration, leave, make_folder, one, tell};
+use crate::compare::random::command::{Run, bar, leave, one, tell};
 use crate::compare::random::outcome::{Outcome, Row, summary};
 use lensrunner::judge::case::{Case, TraceError};
 use lensrunner::scene::crew::Crew;
@@ -42,46 +41,21 @@ pub struct FlightRequest {
     pub at: Option<f64>,
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// How each is judged.
-    pub terms: Terms,
-    /// The game's configuration; None: every value its default.
-    pub config: Option<PathBuf>,
-    /// The folder for what fails.
-    pub output: PathBuf,
-    /// Whether what fails is made smaller before it is left there.
-    pub reduce: bool,
-    /// The table that the run is added to, a .csv.
-    pub collected: Option<PathBuf>,
-}
-
-impl FlightRequest {
-    fn check(&self) -> Result<(), TraceError> {
-        let input = |text: String| Err(TraceError::Input(text));
-        if !(1..=100_000).contains(&self.seeds) {
-            return input(format!("--seeds {}: must be from 1 to 100000 chases", self.seeds));
-        }
-        if !(1..=100_000).contains(&self.moments) {
-            return input(format!("--moments {}: must be from 1 to 100000 a chase", self.moments));
-        }
-        if let Some(at) = self.at.filter(|at| !(0.0..=1e5).contains(at)) {
-            return input(format!("--at {at}: T must be a number from 0 to 100000 r_s/c"));
-        }
-        check_terms(&self.terms)
-    }
+    /// How each is judged, and where what fails goes.
+    pub run: Run,
 }
 
 /// Flies and judges; leaves each moment that fails in the folder as a scene of its own; prints a table. Gives a row for each moment.
 pub fn run(request: &FlightRequest, contestant: &Contestant, shower: &Shower) -> Result<Vec<Row>, CompareError> {
-    request.check()?;
-    let config = configuration(request.config.as_deref())?;
+    if let Some(at) = request.at.filter(|at| !(0.0..=1e5).contains(at)) {
+        return Err(TraceError::Input(format!("--at {at}: T must be a number from 0 to 100000 r_s/c")).into());
+    }
     let scene = scene::load(&request.scene).map_err(TraceError::from)?;
     if scene.ships.is_empty() {
         return Err(TraceError::Input(format!("--flight {}: the scene has no ship to fly", request.scene)).into());
     }
+    let config = request.run.begin()?;
     let text = scene.text.to_string();
-    // Before the work of which it would lose the result.
-    request.collected.as_deref().map(collect::open).transpose()?;
-    make_folder(&request.output)?;
     let count = request.at.map_or(request.moments, |_| 1) as u64;
     let bar = bar(request.seeds * count);
     let mut flight = Flight {
@@ -115,11 +89,11 @@ pub fn run(request: &FlightRequest, contestant: &Contestant, shower: &Shower) ->
     say(summary(&flight.rows).trim_end());
     if by_hands {
         say(flight.tally.text().trim_end());
-        flight.tally.save(&request.output.join("hands.csv"))?;
+        flight.tally.save(&request.run.output.join("hands.csv"))?;
     }
-    if let Some(csv) = &request.collected {
+    if let Some(csv) = &request.run.collected {
         let seeds = format!("{} to {}", request.first, request.first + (request.seeds - 1));
-        collect::add(csv, &scene.name, &seeds, &request.terms, &flight.rows)?;
+        collect::add(csv, &scene.name, &seeds, &request.run.terms, &flight.rows)?;
     }
     Ok(flight.rows)
 }
@@ -199,7 +173,7 @@ impl Flight<'_> {
             outcome,
             seconds: started.elapsed().as_secs_f64(),
         };
-        let mut judged = match judge(&still.case, &self.request.terms, self.contestant) {
+        let mut judged = match judge(&still.case, &self.request.run.terms, self.contestant) {
             Ok(judged) => judged,
             Err(gave_up) => return Ok(row(Outcome::GaveUp(gave_up.to_string()))),
         };
@@ -229,7 +203,7 @@ impl Flight<'_> {
 
     /// What is wrong with the frame from which an image jumps to the next; None if it is right, so that things really move so fast.
     fn jump(&self, earlier: &Still, still: &Still, jump: &Jump) -> Option<Fault> {
-        let judged = judge(&earlier.case, &self.request.terms, self.contestant);
+        let judged = judge(&earlier.case, &self.request.run.terms, self.contestant);
         let (excess, at_first) = match &judged {
             Ok(judged) => {
                 let fault = main_fault(&judged.faults)?;
@@ -261,13 +235,13 @@ impl Flight<'_> {
         let notes = vec![format!("T = {} of the flight of {} with seed {seed}: {command}", case.time, self.scene.name)];
         let Some(text) = freeze(self.text, case) else { return Ok(()) };
         let file = CaseFile { notes, text, at: 0.0, size: self.request.size };
-        let keep = Keep { folder: &self.request.output, reduce: self.request.reduce };
-        let frozen = one(name, "flight", &file, &self.config, &self.request.terms, Some(keep), self.contestant)?;
+        let run = &self.request.run;
+        let frozen = one(name, "flight", &file, &self.config, &run.terms, run.keep(), self.contestant)?;
         if !frozen.failed() {
             // The ships have coasted to here in the file, and not in the flight.
             let mut file = file;
             file.notes.push("this scene does not fail: what fails depends on what the ships burnt before, so judge the flight".into());
-            leave(&self.request.output, name, &file, case, judged)?;
+            leave(&run.output, name, &file, case, judged)?;
         }
         Ok(())
     }

@@ -21,15 +21,9 @@ use lensrunner::judge::case::{Case, TraceError};
 use lensrunner::picture_file::write_png;
 use lensrunner::scene::{self, GameConfig};
 
-/// What to judge.
+/// How many cases are judged, however they are drawn.
 #[derive(Clone, Debug)]
-pub struct RandomRequest {
-    /// How many cases.
-    pub count: u64,
-    /// Where they are drawn from.
-    pub seed: u64,
-    /// The number of the first.
-    pub first: u64,
+pub struct Run {
     /// How each is judged.
     pub terms: Terms,
     /// The game's configuration; None: every value its default, whatever `game.toml` says.
@@ -42,19 +36,22 @@ pub struct RandomRequest {
     pub collected: Option<PathBuf>,
 }
 
-impl RandomRequest {
-    /// Checks the numbers.
-    pub fn check(&self) -> Result<(), TraceError> {
-        let input = |text: String| Err(TraceError::Input(text));
-        if !(1..=1_000_000).contains(&self.count) {
-            return input(format!("--random {}: the number of cases must be from 1 to 1000000", self.count));
-        }
-        check_terms(&self.terms)
+impl Run {
+    /// Looks over all that may be wrong before the work of which it would lose the result, and gives the configuration.
+    pub fn begin(&self) -> Result<GameConfig, CompareError> {
+        check_terms(&self.terms)?;
+        self.collected.as_deref().map(collect::open).transpose()?;
+        make_folder(&self.output)?;
+        Ok(configuration(self.config.as_deref())?)
+    }
+
+    /// How failing cases are kept.
+    pub fn keep(&self) -> Option<Keep<'_>> {
+        Some(Keep { folder: &self.output, reduce: self.reduce })
     }
 }
 
-/// Checks the numbers of the terms.
-pub fn check_terms(terms: &Terms) -> Result<(), TraceError> {
+fn check_terms(terms: &Terms) -> Result<(), TraceError> {
     let input = |text: String| Err(TraceError::Input(text));
     if !(0.1..=86_400.0).contains(&terms.seconds) {
         return input(format!("--limit {}: must be from 0.1 to 86400 seconds a case", terms.seconds));
@@ -66,7 +63,7 @@ pub fn check_terms(terms: &Terms) -> Result<(), TraceError> {
 }
 
 /// The configuration of cases: that of a named file, else all defaults.
-pub fn configuration(named: Option<&Path>) -> Result<GameConfig, TraceError> {
+fn configuration(named: Option<&Path>) -> Result<GameConfig, TraceError> {
     Ok(named.map(scene::config::load).transpose()?.unwrap_or_default())
 }
 
@@ -79,31 +76,27 @@ pub struct Keep<'a> {
     pub reduce: bool,
 }
 
-/// Judges cases that nobody chose; leaves each that fails in the folder; prints a table. Gives a row for each case.
-pub fn run(request: &RandomRequest, contestant: &Contestant) -> Result<Vec<Row>, CompareError> {
-    request.check()?;
-    let config = configuration(request.config.as_deref())?;
-    // Before the work of which it would lose the result.
-    request.collected.as_deref().map(collect::open).transpose()?;
-    make_folder(&request.output)?;
-    let bar = bar(request.count);
+/// Judges `count` cases that nobody chose, drawn from a seed, from the number `first` on; leaves each that fails in the folder; prints a
+/// table. Gives a row for each case.
+pub fn run(seed: u64, first: u64, count: u64, run: &Run, contestant: &Contestant) -> Result<Vec<Row>, CompareError> {
+    let config = run.begin()?;
+    let bar = bar(count);
     let mut rows = Vec::new();
-    for number in request.first..request.first.saturating_add(request.count) {
-        let drawn = draw(request.seed, number);
-        let name = format!("seed-{}-case-{number}", request.seed);
-        let command = format!("lensrunner-lab compare --random 1 --seed {} --first {number}", request.seed);
-        let notes = vec![format!("case {number} of seed {} ({}): {command}", request.seed, drawn.corner.word())];
+    for number in first..first.saturating_add(count) {
+        let drawn = draw(seed, number);
+        let name = format!("seed-{seed}-case-{number}");
+        let command = format!("lensrunner-lab compare --random 1 --seed {seed} --first {number}");
+        let notes = vec![format!("case {number} of seed {seed} ({}): {command}", drawn.corner.word())];
         let file = CaseFile { notes, text: drawn.text, at: drawn.at, size: drawn.size };
-        let keep = Keep { folder: &request.output, reduce: request.reduce };
-        let row = one(&name, drawn.corner.word(), &file, &config, &request.terms, Some(keep), contestant)?;
+        let row = one(&name, drawn.corner.word(), &file, &config, &run.terms, run.keep(), contestant)?;
         tell(&bar, &row);
         rows.push(row);
     }
     bar.finish_and_clear();
     say(summary(&rows).trim_end());
-    if let Some(csv) = &request.collected {
-        let seed = if request.first == 0 { request.seed.to_string() } else { format!("{} from {}", request.seed, request.first) };
-        collect::add(csv, "random", &seed, &request.terms, &rows)?;
+    if let Some(csv) = &run.collected {
+        let seed = if first == 0 { seed.to_string() } else { format!("{seed} from {first}") };
+        collect::add(csv, "random", &seed, &run.terms, &rows)?;
     }
     Ok(rows)
 }
@@ -225,7 +218,7 @@ pub fn write(path: &Path, text: &str) -> Result<(), CompareError> {
 }
 
 /// Makes the folder if there is none; an error names it.
-pub fn make_folder(path: &Path) -> Result<(), CompareError> {
+fn make_folder(path: &Path) -> Result<(), CompareError> {
     std::fs::create_dir_all(path).map_err(|error| CompareError::Output(path.to_path_buf(), error))
 }
 

@@ -1,0 +1,44 @@
+//! Whole frames without a window, for whoever times them.
+
+use lensrunner::render::frame::FrameInput;
+use lensrunner::render::gpu::readback::PictureError;
+use lensrunner::render::gpu::targets::target;
+use lensrunner::render::shot::surroundings;
+use lensrunner::render::{Gpu, Renderer};
+
+/// The game's renderer and what it draws to.
+pub struct Offscreen {
+    /// The renderer.
+    pub renderer: Renderer,
+    view: wgpu::TextureView,
+}
+
+impl Offscreen {
+    /// For frames of this width and height in pixels.
+    pub fn new(gpu: &Gpu, size: [u32; 2]) -> Offscreen {
+        let format = wgpu::TextureFormat::Rgba8UnormSrgb;
+        let (_, view) = target(&gpu.device, "offscreen", size, format);
+        Offscreen { renderer: Renderer::new(gpu, &surroundings(), format, size), view }
+    }
+
+    /// Draws one frame to its end.
+    pub fn draw(&mut self, frame: &FrameInput) -> Result<(), PictureError> {
+        self.renderer.prepare(frame);
+        let Gpu { device, queue, .. } = self.renderer.gpu().clone();
+        let mut encoder = device.create_command_encoder(&Default::default());
+        self.renderer.encode(&mut encoder, &self.view);
+        queue.submit([encoder.finish()]);
+        device.poll(wgpu::PollType::wait_indefinitely()).map(|_| ()).map_err(|error| PictureError::Map(error.to_string()))
+    }
+}
+
+/// Milliseconds that all threads of this process that still run have worked so far, on Linux.
+pub fn processor_time() -> Option<f64> {
+    let mut sum = 0.0;
+    for task in std::fs::read_dir("/proc/self/task").ok()? {
+        // The first field is the time on a processor, in ns. A thread may end while we read.
+        let Ok(text) = std::fs::read_to_string(task.ok()?.path().join("schedstat")) else { continue };
+        sum += text.split_whitespace().next()?.parse::<f64>().ok()? * 1e-6;
+    }
+    Some(sum)
+}
