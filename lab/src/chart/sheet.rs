@@ -141,6 +141,25 @@ impl Sheet {
         std::fs::write(path, self.to_csv()).map_err(wrong)
     }
 
+    /// Writes the file, and the same for reading, in Markdown, beside it.
+    pub fn save_with(&self, path: &Path, page: &str) -> Result<(), SheetError> {
+        self.save(path)?;
+        let beside = path.with_extension("md");
+        std::fs::write(&beside, page).map_err(|error| SheetError::Io(beside, error))
+    }
+
+    /// Reads the file, or begins a sheet with these columns where there is none. An error names the file and what it lacks.
+    pub fn open(path: &Path, columns: &[&str]) -> Result<Sheet, SheetError> {
+        if !path.exists() {
+            return Ok(Sheet::new(columns));
+        }
+        let sheet = Sheet::load(path)?;
+        match columns.iter().enumerate().find(|(k, wanted)| sheet.columns.get(*k).is_none_or(|found| found != *wanted)) {
+            Some((_, wanted)) => Err(SheetError::Column(path.display().to_string(), (*wanted).to_owned())),
+            None => Ok(sheet),
+        }
+    }
+
     /// Reads the file.
     pub fn load(path: &Path) -> Result<Sheet, SheetError> {
         let text = std::fs::read_to_string(path).map_err(|error| SheetError::Io(path.to_path_buf(), error))?;

@@ -1,7 +1,7 @@
 //! Verdicts collected in a table: a CSV with a row for each object and image order, and the same for reading, in Markdown, beside it.
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::measure::metrics::{Limits, Verdict};
 use super::report::{BEYOND, said};
@@ -54,27 +54,10 @@ pub fn moments() -> Vec<(String, f64)> {
 /// Adds a verdict to the table in `csv`, in the place of an earlier one of the same scene, T and rays a pixel, and writes its Markdown
 /// beside it.
 pub fn add(csv: &Path, request: &TraceRequest, verdict: &Verdict, limits: &Limits, faults: &[String]) -> Result<(), SheetError> {
-    let mut sheet = open(csv)?;
+    let mut sheet = Sheet::open(csv, &COLUMNS)?;
     let commit = Provenance::now("").commit;
     insert(&mut sheet, rows(request, verdict, limits, faults, &commit));
-    sheet.save(csv)?;
-    let page: PathBuf = csv.with_extension("md");
-    std::fs::write(&page, markdown(&sheet)).map_err(|error| SheetError::Io(page, error))
-}
-
-/// The table in `csv`, or a new one. An error names the file and what it lacks; ask before the work whose verdict is to be added.
-pub fn open(csv: &Path) -> Result<Sheet, SheetError> {
-    if !csv.exists() {
-        return Ok(Sheet::new(&COLUMNS));
-    }
-    let sheet = Sheet::load(csv)?;
-    match COLUMNS.iter().zip(&sheet.columns).find(|(wanted, found)| *wanted != found) {
-        Some((wanted, _)) => Err(SheetError::Column(csv.display().to_string(), (*wanted).to_owned())),
-        None if sheet.columns.len() < COLUMNS.len() => {
-            Err(SheetError::Column(csv.display().to_string(), COLUMNS[sheet.columns.len()].to_owned()))
-        }
-        None => Ok(sheet),
-    }
+    sheet.save_with(csv, &markdown(&sheet))
 }
 
 /// The rows of a verdict; one, without an object, where nothing solid is seen.

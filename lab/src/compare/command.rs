@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Frame;
-use super::collect::{add, moments, open};
+use super::collect::{COLUMNS, add, moments};
 use super::measure::metrics::{Limits, compare};
 use super::measure::narrow;
 use super::measure::probe::probe;
 use super::report::{side_by_side, table};
-use crate::chart::SheetError;
+use crate::chart::{Sheet, SheetError};
 use crate::flip::flip;
 use lensrunner::judge::case::{Case, TraceError, TraceRequest};
 use lensrunner::judge::picture::{Picture, Quality};
@@ -107,7 +107,7 @@ pub fn run_case(
 ) -> Result<Vec<String>, CompareError> {
     // Before the work of which it would lose the result.
     if let Some(csv) = collected {
-        open(csv)?;
+        Sheet::open(csv, &COLUMNS)?;
     }
     let side = request.check()?;
     if output.extension().and_then(|extension| extension.to_str()) != Some("png") {

@@ -1,6 +1,6 @@
 //! An empty window of the engine that the game is built on: what opening, clearing and showing pictures takes alone.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
@@ -10,20 +10,6 @@ use lensrunner::scene::picture_size;
 use bevy::prelude::*;
 use bevy::render::{Render, RenderApp, RenderSystems};
 use bevy::window::PresentMode;
-
-/// The command that opens it.
-pub const COMMAND: &str = "empty-window";
-
-/// The command line of the laboratory that opens one.
-pub fn arguments([width, height]: [u32; 2], frames: u32, table: &Path) -> Vec<String> {
-    let size = format!("{width}x{height}");
-    let frames = frames.to_string();
-    [COMMAND, "--size", &size, "--frames", &frames, "--timings"]
-        .map(str::to_owned)
-        .into_iter()
-        .chain([table.display().to_string()])
-        .collect()
-}
 
 /// When each frame was handed to the window, in s; both worlds have it.
 #[derive(Resource, Clone)]

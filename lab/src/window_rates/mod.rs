@@ -71,8 +71,13 @@ pub fn run(request: &WindowRequest) -> Result<Vec<PathBuf>, ChartError> {
             for (what, quality) in RUNS {
                 let table = request.output.join("window-times.csv");
                 let rows = match quality {
-                    None => play(&here, &table, &empty::arguments(*size, request.frames, &table))?,
-                    Some(quality) => play(&game, &table, &arguments(quality, *size, request.frames, &table))?,
+                    None => play(&here, "empty-window", *size, request.frames, &table)?,
+                    Some(quality) => {
+                        // Without a window manager a window may have no focus.
+                        let set = format!("--set video.quality={quality} --set video.pause_without_focus=false");
+                        let command = format!("play --scene {SCENE} --seed {SEED} --at-once --autopilot {set}");
+                        play(&game, &command, *size, request.frames, &table)?
+                    }
                 };
                 let rates = rates(&rows, SETTLED).ok_or_else(|| too_few(&table))?;
                 if quality == Some("automatic") {
@@ -115,21 +120,14 @@ fn write_row(sheet: &mut Sheet, [width, height]: [u32; 2], what: &str, round: u3
     )
 }
 
-fn arguments(quality: &str, [width, height]: [u32; 2], frames: u32, table: &Path) -> Vec<String> {
-    let table = table.display();
-    let words = format!("play --scene {SCENE} --seed {SEED} --at-once --autopilot --size {width}x{height} --frames {frames}");
-    // Without a window manager a window may have no focus.
-    let set = format!("--set video.quality={quality} --set video.pause_without_focus=false --timings");
-    words.split(' ').chain(set.split(' ')).map(str::to_owned).chain([table.to_string()]).collect()
-}
-
 /// Runs a program that writes its times to `table`.
-fn play(program: &Path, table: &Path, arguments: &[String]) -> Result<Vec<rates::Row>, ChartError> {
+fn play(program: &Path, command: &str, [width, height]: [u32; 2], frames: u32, table: &Path) -> Result<Vec<rates::Row>, ChartError> {
     if let Some(folder) = table.parent() {
         std::fs::create_dir_all(folder).map_err(|error| ChartError::Write(folder.into(), error.to_string()))?;
     }
     let failed = |reason: String| ChartError::Program(program.display().to_string(), reason);
-    let ran = Command::new(program).args(arguments).stdout(Stdio::null()).stderr(Stdio::null()).status();
+    let command = format!("{command} --size {width}x{height} --frames {frames} --timings");
+    let ran = Command::new(program).args(command.split(' ')).arg(table).stdout(Stdio::null()).stderr(Stdio::null()).status();
     let status = ran.map_err(|error| failed(error.to_string()))?;
     if !status.success() {
         return Err(failed(format!("ended with {status}")));

@@ -7,7 +7,7 @@ use std::path::Path;
 use rand::RngExt;
 
 use super::eye::{Eye, own_ship};
-use crate::chart::{Provenance, Sheet, SheetError};
+use crate::chart::{Sheet, SheetError};
 use crate::compare::judged::Judged;
 use crate::compare::random::draw::chance;
 use lensrunner::scene::crew::Crew;
@@ -92,8 +92,7 @@ impl Tally {
 
     /// As a table of numbers: a row for each pace, and one for all.
     pub fn sheet(&self) -> Sheet {
-        let mut sheet = Sheet::new(&COLUMNS);
-        sheet.notes = Provenance::now("").notes();
+        let mut sheet = Sheet::measured(&COLUMNS, "");
         let mut all = AtPace::default();
         for (pace, at) in &self.paces {
             all.moments += at.moments;

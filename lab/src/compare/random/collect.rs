@@ -1,7 +1,7 @@
 //! Runs of many cases collected in a table: a CSV with a row for each run, and the same for reading, in Markdown, beside it.
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::outcome::{Counts, Row, counts};
 use crate::chart::{Provenance, Sheet, SheetError};
@@ -13,22 +13,10 @@ use crate::compare::judged::Terms;
 pub const COLUMNS: [&str; 13] =
     ["what", "cases", "seed", "limits", "within", "empty", "failed", "gave_up", "slow", "by_kind", "seconds", "commit", "command"];
 
-/// The table in `csv`, or a new one; ask before the work whose result is to be added. An error names the file and what it lacks.
-pub fn open(csv: &Path) -> Result<Sheet, SheetError> {
-    if !csv.exists() {
-        return Ok(Sheet::new(&COLUMNS));
-    }
-    let sheet = Sheet::load(csv)?;
-    match COLUMNS.iter().find(|wanted| !sheet.columns.iter().any(|found| found == *wanted)) {
-        Some(wanted) => Err(SheetError::Column(csv.display().to_string(), (*wanted).to_owned())),
-        None => Ok(sheet),
-    }
-}
-
 /// Adds a run to the table in `csv`, in the place of an earlier one of the same cases, and writes its Markdown beside it. `what` names what
 /// was drawn: `random`, or a scene that was flown.
 pub fn add(csv: &Path, what: &str, seed: &str, terms: &Terms, rows: &[Row]) -> Result<(), SheetError> {
-    let mut sheet = open(csv)?;
+    let mut sheet = Sheet::open(csv, &COLUMNS)?;
     let provenance = Provenance::now("");
     let new = row(what, seed, terms, rows, &provenance);
     let same = |old: &Vec<String>| old[..3] == new[..3];
@@ -36,9 +24,7 @@ pub fn add(csv: &Path, what: &str, seed: &str, terms: &Terms, rows: &[Row]) -> R
         Some(old) => *old = new,
         None => sheet.rows.push(new),
     }
-    sheet.save(csv)?;
-    let page: PathBuf = csv.with_extension("md");
-    std::fs::write(&page, markdown(&sheet)).map_err(|error| SheetError::Io(page, error))
+    sheet.save_with(csv, &markdown(&sheet))
 }
 
 /// The row of a run.

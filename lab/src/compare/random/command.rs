@@ -12,6 +12,7 @@ use super::draw::draw;
 use super::outcome::{Outcome, Row, summary};
 use super::place;
 use super::reduce::reduce;
+use crate::chart::Sheet;
 use crate::compare::command::{CompareError, Contestant, difference};
 use crate::compare::deadline::Deadline;
 use crate::compare::fault::{Fault, main_fault};
@@ -40,7 +41,7 @@ impl Run {
     /// Looks over all that may be wrong before the work of which it would lose the result, and gives the configuration.
     pub fn begin(&self) -> Result<GameConfig, CompareError> {
         check_terms(&self.terms)?;
-        self.collected.as_deref().map(collect::open).transpose()?;
+        self.collected.as_deref().map(|csv| Sheet::open(csv, &collect::COLUMNS)).transpose()?;
         make_folder(&self.output)?;
         Ok(configuration(self.config.as_deref())?)
     }
