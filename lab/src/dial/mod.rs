@@ -24,7 +24,7 @@ use lensrunner::argument::whole;
 use lensrunner::render::quality::prices::Prices;
 use lensrunner::scene::picture_size;
 
-use crate::chart::{ChartError, Output};
+use crate::chart::{ChartError, Output, Sheet, SheetError};
 use crate::say::say;
 
 /// What each knob of the picture's quality costs and saves: the price list that the game reads (quality.csv); with --check whether the
@@ -86,7 +86,7 @@ pub fn run(request: &DialRequest) -> Result<Vec<PathBuf>, ChartError> {
 }
 
 /// What writes the rows that there are so far.
-pub(crate) type Keep<'a> = &'a dyn Fn(&crate::chart::Sheet) -> Result<(), crate::chart::SheetError>;
+pub(crate) type Keep<'a> = &'a dyn Fn(&Sheet) -> Result<(), SheetError>;
 
 /// No scene has a moment of this class.
 pub(crate) fn empty(class: &str) -> ChartError {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::outcome::{Counts, Row, counts};
-use crate::chart::{Provenance, Sheet, SheetError};
+use crate::chart::{Provenance, Sheet, SheetError, quantile};
 use crate::compare::fault::{Kind, Limits};
 use crate::compare::judged::Terms;
 
@@ -36,9 +36,7 @@ pub fn row(what: &str, seed: &str, terms: &Terms, rows: &[Row], provenance: &Pro
         terms.seconds
     );
     let kinds: Vec<String> = Kind::ALL.iter().filter_map(|kind| by_kind.get(kind).map(|count| format!("{kind} {count}"))).collect();
-    let mut seconds: Vec<f64> = rows.iter().map(|row| row.seconds).collect();
-    seconds.sort_by(f64::total_cmp);
-    let median = seconds.get(seconds.len() / 2).copied().unwrap_or(0.0);
+    let median = quantile(rows.iter().map(|row| row.seconds), 0.5);
     let numbers = [within, empty, failed, gave_up, slow].map(|count| count.to_string());
     [what.to_owned(), cases.to_string(), seed.to_owned(), limits]
         .into_iter()

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use crate::chart::quantile;
 use crate::compare::fault::{Kind, main_fault};
 use crate::compare::judged::Judged;
 
@@ -140,9 +141,8 @@ pub fn summary(rows: &[Row]) -> String {
     if slow > 0 {
         let _ = writeln!(text, "in {slow} cases the judge made less than {SLOW} rays a second and thread");
     }
-    let mut seconds: Vec<f64> = rows.iter().map(|row| row.seconds).collect();
-    seconds.sort_by(f64::total_cmp);
-    if let (Some(most), middle) = (seconds.last(), seconds.get(seconds.len() / 2).copied().unwrap_or(0.0)) {
+    if !rows.is_empty() {
+        let [middle, most] = [0.5, 1.0].map(|q| quantile(rows.iter().map(|row| row.seconds), q));
         let mean = |part: usize| {
             let of = |row: &Row| match &row.outcome {
                 Outcome::Judged { seconds, .. } => Some(seconds[part]),
