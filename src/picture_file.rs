@@ -1,12 +1,9 @@
 //! Pictures in files: PNG for the eye, EXR for linear light and layers.
 
-pub mod chunk;
 pub mod moment;
+pub mod text;
 
 use std::path::{Path, PathBuf};
-
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
 
 use crate::user_file::{self, write_whole};
 
@@ -42,19 +39,23 @@ pub fn write_png(path: &Path, rgb: &[u8], [width, height]: [u32; 2]) -> Result<(
     write_whole(path, &bytes).map_err(|error| fault(error.to_string()))
 }
 
-/// The bytes of a PNG of sRGB, 3 bytes a pixel, row by row from the top, with `text` in it ([`chunk`]); `quickly` rather than small.
+/// The bytes of a PNG of sRGB, 3 bytes a pixel, row by row from the top, with `text` in it ([`text`]); `quickly` rather than small.
 pub fn png(rgb: &[u8], [width, height]: [u32; 2], quickly: bool, text: Option<&str>) -> Result<Vec<u8>, String> {
+    let mut info = png::Info::with_size(width, height);
+    info.utf8_text.extend(text.map(text::chunk));
     let mut bytes = Vec::new();
-    let encoder = if quickly {
-        PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Sub)
-    } else {
-        PngEncoder::new(&mut bytes)
+    let encode = || {
+        let mut encoder = png::Encoder::with_info(&mut bytes, info)?;
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::Fast);
+        encoder.set_filter(if quickly { png::Filter::Sub } else { png::Filter::Adaptive });
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(rgb)?;
+        writer.finish()
     };
-    encoder.write_image(rgb, width, height, ExtendedColorType::Rgb8).map_err(|error| error.to_string())?;
-    Ok(match text {
-        Some(text) => chunk::with_text(bytes, text),
-        None => bytes,
-    })
+    encode().map_err(|error| error.to_string())?;
+    Ok(bytes)
 }
 
 /// Writes a PNG with a text in it, whole or not at all.

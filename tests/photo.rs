@@ -7,7 +7,7 @@ use std::time::Duration;
 use glam::DQuat;
 use lensrunner::judge::case::{Case, DEFAULT_TOLERANCE};
 use lensrunner::judge::picture::{DEFAULT_PACKET, Quality};
-use lensrunner::picture_file::chunk::{read_text, with_text};
+use lensrunner::picture_file::text::read_text;
 use lensrunner::picture_file::{png, write_png_with_text};
 use lensrunner::play::camera::{CameraView, on_ship, state_of};
 use lensrunner::play::demonstration::{DemonstrationRequest, fly};
@@ -229,7 +229,7 @@ fn picture(folder: &Folder, name: &str, size: [u32; 2]) -> PathBuf {
     let view = View { time: 0.4, ticks: 13, camera, size, hidden: None, lit: None };
     let snapshot = Snapshot::new(&flight, &scene, &config, &bevy::prelude::World::new(), &view);
     let path = folder.path().join(name);
-    std::fs::write(&path, with_text(png(&[0; 3], [1, 1], true, None).unwrap(), &snapshot.to_text())).unwrap();
+    std::fs::write(&path, png(&[0; 3], [1, 1], true, Some(&snapshot.to_text())).unwrap()).unwrap();
     path
 }
 

@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use super::chunk::{MOST_BYTES, MOST_PICTURE, TextError, read_text};
+use super::text::{MOST_BYTES, MOST_PICTURE, TextError, read_text};
 use crate::user_file;
 
 /// What the text of a moment begins with.
