@@ -313,9 +313,6 @@ fn main() -> ExitCode {
         #[cfg(feature = "game")]
         Some(Command::Trailer(args)) => {
             lensrunner::play::warn_on_stderr();
-            if args.output.extension().is_none_or(|ending| ending != "avi") {
-                return fail(&format!("{}: the name of a film must end in .avi", args.output.display()), 2);
-            }
             match lensrunner::play::trailer::run(&args) {
                 Ok(done) => {
                     // Nobody may be reading.

@@ -13,6 +13,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use thiserror::Error;
 
 use crate::picture_file;
+use crate::render::frame::FrameInput;
 use crate::render::gpu::readback::{self, PictureError};
 use crate::render::gpu::targets::target;
 use crate::render::settings::greatest_rise;
@@ -147,7 +148,7 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Resul
 
     let sheet_file = flight.folder.join("contact-sheet.png");
     let writer = Writer::start(frames_folder.clone(), sheet_file.clone(), flight.size, flight.frames);
-    let bar = progress(flight.frames);
+    let bar = progress("demonstration flight", flight.frames);
     let started = Instant::now();
     let mut times = Vec::new();
     let mut passes = Vec::new();
@@ -159,11 +160,7 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Resul
         let time = span[0] + (span[1] - span[0]) * share;
         let (camera, hidden) = director.camera(&cast, time, share, session.config.video.fov.to_radians());
         let frame = stage.frame(camera, flight.size, time, &histories, hidden, &settings);
-        renderer.prepare(&frame);
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        renderer.encode(&mut encoder, &view);
-        gpu.queue.submit([encoder.finish()]);
-        let pixels = readback::texture(gpu, &texture, 4)?;
+        let pixels = drawn(gpu, &mut renderer, &frame, (&texture, &view))?;
         times.push(began.elapsed().as_secs_f64() * 1e3);
         passes = renderer.timing().latest().to_vec();
         // From the second frame on the eye adapts, by the time that passes for a player.
@@ -207,9 +204,24 @@ fn cast<'a>(session: &Session, histories: &[&'a History]) -> Cast<'a> {
     Cast { hunter: of(hunter), quarry: session.target().map(of), hunter_index: hunter }
 }
 
-fn progress(frames: u32) -> ProgressBar {
+/// Draws a frame into a texture and brings it back: RGBA, 4 bytes a pixel.
+pub fn drawn(
+    gpu: &Gpu,
+    renderer: &mut Renderer,
+    frame: &FrameInput,
+    (texture, view): (&wgpu::Texture, &wgpu::TextureView),
+) -> Result<Vec<u8>, PictureError> {
+    renderer.prepare(frame);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    renderer.encode(&mut encoder, view);
+    gpu.queue.submit([encoder.finish()]);
+    readback::texture(gpu, texture, 4)
+}
+
+/// A bar on the terminal that counts the frames of `what`.
+pub fn progress(what: &str, frames: u32) -> ProgressBar {
     let bar = ProgressBar::new(u64::from(frames));
-    match ProgressStyle::with_template("demonstration flight {wide_bar} {pos}/{len} frames, {eta} left") {
+    match ProgressStyle::with_template(&format!("{what} {{wide_bar}} {{pos}}/{{len}} frames, {{eta}} left")) {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
     }
@@ -245,7 +257,7 @@ fn play(session: &Session, crew: Crew, replay: Option<&Replay>, mut recorder: Op
 }
 
 /// Makes the folder, without frames of an earlier flight.
-fn empty_folder(folder: &Path) -> Result<(), FlightError> {
+pub fn empty_folder(folder: &Path) -> Result<(), FlightError> {
     let failed = |error: std::io::Error| FlightError::Write { path: folder.to_path_buf(), reason: error.to_string() };
     fs::create_dir_all(folder).map_err(failed)?;
     for entry in fs::read_dir(folder).map_err(failed)? {

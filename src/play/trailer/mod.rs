@@ -1,39 +1,33 @@
-//! The trailer: half a minute of the game as a film with sound, made by one command. What it shows is the table in [`plan`].
+//! The trailer: half a minute of the game as pictures and sound, made by one command. What it shows is the table in [`plan`].
 
-pub mod avi;
 pub mod plan;
 pub mod score;
 pub mod take;
 pub mod title;
 
-use std::fs::File;
-use std::io::BufWriter;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use image::codecs::jpeg::JpegEncoder;
-use image::{ExtendedColorType, ImageEncoder};
-use indicatif::{ProgressBar, ProgressStyle};
 use thiserror::Error;
 
 use crate::argument::whole;
-use crate::play::sound::mixer::RATE;
+use crate::play::demonstration::{FlightError, drawn, empty_folder, progress, write_png};
+use crate::play::sound::file::{self, SoundFileError};
 use crate::render::gpu::device::DeviceError;
-use crate::render::gpu::readback::{self, PictureError};
+use crate::render::gpu::readback::PictureError;
 use crate::render::gpu::targets::target;
 use crate::render::settings::Settings;
 use crate::render::shot::surroundings;
 use crate::render::stage::{Stage, settings};
 use crate::render::{Gpu, Renderer};
-use avi::{AviFormat, AviWriter};
 use plan::{Moment, PARTS, Part, TITLE, smooth};
 use take::{Take, TakeError};
 use title::{Letters, Style};
 
-/// Makes the trailer: thirty seconds of missions and scenes with sound, as an AVI file (Motion JPEG, PCM).
+/// Makes the trailer: thirty seconds of missions and scenes with sound, as numbered pictures and a WAV file.
 #[derive(clap::Args, Clone, Debug)]
 pub struct TrailerArgs {
-    /// The film.
-    #[arg(short, value_name = "FILE.avi", default_value = "trailer.avi")]
+    /// Where frames/frame-NNNNN.png and sound.wav go.
+    #[arg(short, value_name = "DIR", default_value = "trailer")]
     pub output: PathBuf,
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = crate::render::shot::size)]
@@ -58,56 +52,44 @@ pub enum TrailerError {
     /// A picture did not come back from the GPU.
     #[error(transparent)]
     Picture(#[from] PictureError),
-    /// The file could not be written.
-    #[error("cannot write {}: {reason}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        reason: String,
-    },
+    /// A picture could not be written.
+    #[error(transparent)]
+    Frame(#[from] FlightError),
+    /// The sound could not be written.
+    #[error(transparent)]
+    Sound(#[from] SoundFileError),
 }
 
-/// Quality of the pictures, 1 to 100: at 90 neither stars nor letters have a seam round them.
-const QUALITY: u8 = 90;
 /// Light of the picture behind the title, of 1.
 const BEHIND_TITLE: f64 = 0.7;
 
 /// Makes a film of these parts, at least one; how many pictures it has.
 pub fn make(gpu: &Gpu, args: &TrailerArgs, parts: &[Part]) -> Result<u32, TrailerError> {
-    let failed = |reason: String| TrailerError::Write { path: args.output.clone(), reason };
-    // What cannot be written is said before the work.
-    let file = File::create(&args.output).map_err(|error| failed(error.to_string()))?;
-    let format = AviFormat { size: args.size, fps: args.fps, rate: RATE };
-    let mut avi = AviWriter::new(BufWriter::new(file), format).map_err(|error| failed(error.to_string()))?;
+    let folder = args.output.join("frames");
+    empty_folder(&folder)?;
     let mut takes = parts.iter().map(Take::play).collect::<Result<Vec<Take>, TakeError>>()?;
     let (frames, seconds) = (args.seconds * args.fps, f64::from(args.seconds));
-    let sound = score::score(parts, &takes, seconds);
+    let (moments, each) = score::score(parts, &takes, seconds);
+    file::write(&args.output.join("sound.wav"), &moments, each, &score::VOLUMES)?;
     let mut studio = Studio::new(gpu, args.size);
-    let bar = progress(frames);
+    let bar = progress("trailer", frames);
     for index in 0..frames {
         let moment = Moment::at(parts, f64::from(index) / f64::from(frames), seconds);
         let (Some(take), Some(part)) = (takes.get_mut(moment.part), parts.get(moment.part)) else { continue };
         let mut rgb = studio.picture(take, &moment, 1.0 / f64::from(args.fps))?;
         finish(&mut studio.letters, part, &moment, args.size, &mut rgb);
-        let jpeg = jpeg(&rgb, args.size).map_err(failed)?;
-        avi.picture(&jpeg).map_err(|error| failed(error.to_string()))?;
-        // Counted from the beginning, so that sound and pictures stay together.
-        let [from, to] = [index, index + 1].map(|index| (u64::from(index) * u64::from(RATE) / u64::from(args.fps)) as usize);
-        let end = sound.len();
-        avi.sound(&sound[from.min(end)..to.min(end)]).map_err(|error| failed(error.to_string()))?;
+        write_png(&folder.join(format!("frame-{index:05}.png")), args.size, &rgb, None)?;
         bar.inc(1);
     }
     bar.finish_and_clear();
-    avi.finish().map_err(|error| failed(error.to_string()))?;
     Ok(frames)
 }
 
 /// Makes it and says so.
 pub fn run(args: &TrailerArgs) -> Result<String, TrailerError> {
     let frames = make(&Gpu::headless()?, args, &PARTS)?;
-    let ([width, height], path): (_, &Path) = (args.size, &args.output);
-    Ok(format!("{}: {frames} pictures of {width}x{height}, {} s", path.display(), args.seconds))
+    let [width, height] = args.size;
+    Ok(format!("{}: {frames} pictures of {width}x{height}, {} s", args.output.display(), args.seconds))
 }
 
 /// What draws.
@@ -149,11 +131,7 @@ impl Studio<'_> {
         };
         let (camera, hidden) = take.camera(&stage, moment);
         let frame = stage.frame(camera, self.size, moment.time, &take.histories(), hidden, &settings);
-        self.renderer.prepare(&frame);
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        self.renderer.encode(&mut encoder, &self.view);
-        self.gpu.queue.submit([encoder.finish()]);
-        let rgba = readback::texture(self.gpu, &self.texture, 4)?;
+        let rgba = drawn(self.gpu, &mut self.renderer, &frame, (&self.texture, &self.view))?;
         settings.adaptation = 1.0;
         self.set = Some((moment.part, stage, settings));
         Ok(rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect())
@@ -172,20 +150,5 @@ fn finish(letters: &mut Letters, part: &Part, moment: &Moment, size: [u32; 2], r
         let strength = moment.light * title;
         letters.write(TITLE[0], &Style { height: 0.17, at: 0.26, spread: 0.22, strength }, size, rgb);
         letters.write(TITLE[1], &Style { height: 0.055, at: 0.4, spread: 0.06, strength }, size, rgb);
-    }
-}
-
-fn jpeg(rgb: &[u8], [width, height]: [u32; 2]) -> Result<Vec<u8>, String> {
-    let mut bytes = Vec::new();
-    let encoder = JpegEncoder::new_with_quality(&mut bytes, QUALITY);
-    encoder.write_image(rgb, width, height, ExtendedColorType::Rgb8).map_err(|error| error.to_string())?;
-    Ok(bytes)
-}
-
-fn progress(frames: u32) -> ProgressBar {
-    let bar = ProgressBar::new(u64::from(frames));
-    match ProgressStyle::with_template("trailer {wide_bar} {pos}/{len} pictures, {eta} left") {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
     }
 }

@@ -1,16 +1,14 @@
 //! The trailer's sound, from its first picture to its last: what the ship of each part hears, and the music through all of them.
 
-use crate::play::sound::file::render;
 use crate::play::sound::heard::Heard;
-use crate::play::sound::mixer::RATE;
 use crate::play::sound::volumes::Volumes;
-use crate::play::trailer::plan::{Moment, Part, smooth};
+use crate::play::trailer::plan::{Moment, Part};
 use crate::play::trailer::take::Take;
 
 /// What is heard changes so often a second, as in the game's steps at the usual pace.
 const CHANGES: f64 = 48.0;
 /// Of the parts of the mix: here the music leads.
-const VOLUMES: Volumes = Volumes {
+pub const VOLUMES: Volumes = Volumes {
     master: 1.0,
     effects: 0.8,
     music: 1.0,
@@ -20,18 +18,11 @@ const VOLUMES: Volumes = Volumes {
     music_muted: false,
     beacon_muted: false,
 };
-/// The loudest sample of the whole: −2 dB of what a file can hold.
-const PEAK: f32 = 0.8;
-/// A quiet trailer is made louder by so much at most.
-const LOUDER: f32 = 8.0;
-/// Seconds in which the sound comes, and goes at the end.
-const SWELL: [f64; 2] = [0.5, 1.8];
-
-/// The samples, left and right, of a trailer of so many seconds: as many as its length has at [`RATE`].
-pub fn score(parts: &[Part], takes: &[Take], seconds: f64) -> Vec<[f32; 2]> {
+/// What is heard in a trailer of so many seconds, and how many seconds each of it lasts.
+pub fn score(parts: &[Part], takes: &[Take], seconds: f64) -> (Vec<Heard>, f64) {
     let count = (seconds * CHANGES).ceil().max(1.0);
     let mut joined = Joined::default();
-    let moments: Vec<Heard> = (0..count as usize)
+    let moments = (0..count as usize)
         .map(|index| {
             let moment = Moment::at(parts, index as f64 / count, seconds);
             let heard = takes.get(moment.part).map_or(Heard::MUSIC, |take| take.heard(moment.time));
@@ -39,19 +30,7 @@ pub fn score(parts: &[Part], takes: &[Take], seconds: f64) -> Vec<[f32; 2]> {
             joined.next(moment.part, Heard { danger: heard.danger.max(tension), alarm: None, ..heard })
         })
         .collect();
-    let mut samples: Vec<[f32; 2]> = Vec::new();
-    let Ok(()) = render(&moments, seconds / count, &VOLUMES, |block| {
-        samples.extend(block);
-        Ok::<(), std::convert::Infallible>(())
-    });
-    let loudest = samples.iter().flatten().fold(0.0, |loudest: f32, sample| loudest.max(sample.abs()));
-    let gain = if loudest > 0.0 { (PEAK / loudest).min(LOUDER) } else { 1.0 };
-    for (index, sample) in samples.iter_mut().enumerate() {
-        let time = index as f64 / f64::from(RATE);
-        let swell = smooth(time / SWELL[0]).min(smooth((seconds - time) / SWELL[1])) as f32;
-        *sample = sample.map(|side| side * gain * swell);
-    }
-    samples
+    (moments, seconds / count)
 }
 
 /// Flights one after the other: what had happened before a part begins is not heard as news.
