@@ -37,6 +37,7 @@ fn is_float(module: &Module, inner: &TypeInner) -> bool {
         | TypeInner::Vector { scalar: Scalar { kind, width: 4 }, .. }
         | TypeInner::Matrix { scalar: Scalar { kind, width: 4 }, .. } => *kind == ScalarKind::Float,
         TypeInner::Array { base, size: ArraySize::Constant(_), .. } => is_float(module, &module.types[*base].inner),
+        TypeInner::Struct { members, .. } => is_float(module, &module.types[members[0].ty].inner),
         other => panic!("not of 4-byte numbers: {other:?}"),
     }
 }

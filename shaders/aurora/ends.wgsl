@@ -54,12 +54,12 @@ struct Arriving {
 
 /// The vector across the axis with these coordinates.
 fn beside(v: vec2<f32>) -> vec3<f32> {
-    return frame.side_a.xyz * v.x + frame.side_b.xyz * v.y;
+    return frame.side_a * v.x + frame.side_b * v.y;
 }
 
 /// Camera axes.
 fn to_camera(along: f32, across: vec3<f32>, path: f32) -> vec3<f32> {
-    return (frame.camera_from_rain * vec4<f32>(frame.radial.xyz * along + across, -path)).xyz;
+    return (frame.camera_from_rain * vec4<f32>(frame.outward * along + across, -path)).xyz;
 }
 
 /// The place so many km east, north and up of a reference. What depends on its distance from the axis is taken as linear; where about the

@@ -34,7 +34,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let axes = across_field(body);
 
     let instance = aurora_instances[id.y];
-    let order = instance.ids.x;
+    let order = instance.order;
     var seen: vec3<f32>;
     var left: array<vec3<f32>, 4>;
     var arriving: array<vec3<f32>, 4>;
@@ -47,7 +47,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         // The direction from which it comes, times its path.
         let towards = found.ray.arriving.xyz * (-found.ray.delay / found.ray.arriving.w);
         let side = side_towards(found.by_axis.xy);
-        arriving[k] = vec3<f32>(dot(towards, frame.radial.xyz), dot(towards, side), found.ray.delay);
+        arriving[k] = vec3<f32>(dot(towards, frame.outward), dot(towards, side), found.ray.delay);
         valid = valid && found.ray.valid && finite_vector(found.ray.apparent) && finite_vector(arriving[k]);
     }
     // The change of `arriving` in the two coordinates that it depends on: least squares of the three differences.

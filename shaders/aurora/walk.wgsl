@@ -64,14 +64,14 @@ fn unseen(spread: vec2<f32>, first: u32, count: u32) -> bool {
         let reach = reach_km * max(length(end.along.xyz), length(end.across.xyz));
         let clip = clip_position(end.apparent.xyz);
         // Distances from the four planes through the camera and the screen's edges, at least.
-        let over = vec4<f32>(clip.xy, -clip.xy) - clip.w - reach * (frame.projection.xyxy + 1.0);
+        let over = vec4<f32>(clip.xy, -clip.xy) - clip.w - reach * (frame.focal.xyxy + 1.0);
         beyond &= over > vec4<f32>(0.0);
-        near |= !(clip.w > 2.0 * reach + frame.projection.z);
+        near |= !(clip.w > 2.0 * reach + frame.near);
         let w = max(clip.w - reach, 1e-9);
-        let pixel = (vec2<f32>(0.5, -0.5) * clip.xy / clip.w + 0.5) * frame.size.xy;
-        let pixels = reach * (frame.projection.xy + 1.0) / w * 0.5 * frame.size.xy;
+        let pixel = (vec2<f32>(0.5, -0.5) * clip.xy / clip.w + 0.5) * frame.size;
+        let pixels = reach * (frame.focal + 1.0) / w * 0.5 * frame.size;
         around = vec4<f32>(min(around.xy, pixel - pixels), max(around.zw, pixel + pixels));
-        nearest = max(nearest, frame.projection.z / w);
+        nearest = max(nearest, frame.near / w);
     }
     if any(beyond) {
         return true;
@@ -100,7 +100,7 @@ fn width_along(streak: Streak, height: f32, first: u32, count: u32, focal: vec2<
     let b = chords[first + chord + 1u];
     let per_chord = chord_height(kind, chord, count) - chord_height(kind, chord + 1u, count);
     // Whichever end is in front of the camera.
-    let c = select(b.apparent.xyz, a.apparent.xyz, a.apparent.z < -frame.projection.z);
+    let c = select(b.apparent.xyz, a.apparent.xyz, a.apparent.z < -frame.near);
     let fallen = length(screen_step(c, (b.apparent.xyz - a.apparent.xyz) / per_chord, focal));
     let along = screen_step(c, a.along.xyz, focal);
     let across = screen_step(c, a.across.xyz, focal);
@@ -229,7 +229,7 @@ fn line_of(streak: Streak, joined: Joined, first: u32, count: u32, is_linear: bo
     let screen = vec4<f32>(mix(top.xy / -top.z, foot.xy / -foot.z, t.x), mix(top.xy / -top.z, foot.xy / -foot.z, t.y));
     line.high = vec4<f32>(select(line.high.xy, screen.xy * -line.high.z, is_linear), line.high.zw);
     line.low = vec4<f32>(select(line.low.xy, screen.zw * -line.low.z, is_linear), line.low.zw);
-    let least = max(frame.projection.z, NEAREST * max(-line.high.z, -line.low.z));
+    let least = max(frame.near, NEAREST * max(-line.high.z, -line.low.z));
     if max(-line.high.z, -line.low.z) <= least {
         return line;
     }
@@ -319,10 +319,10 @@ fn draw_stroke(order: u32, line: Line, seen: Seen, photons: vec4<f32>) -> bool {
     let low_clip = clip_position(line.low.xyz);
     let middle = 0.5 * (high_clip.xy / high_clip.w + low_clip.xy / low_clip.w);
     let depth = clip.z / clip.w;
-    let pixel = (vec2<f32>(0.5, -0.5) * middle + 0.5) * frame.size.xy;
+    let pixel = (vec2<f32>(0.5, -0.5) * middle + 0.5) * frame.size;
     var shape = shape_of(level, seen.direction, seen.length, seen.blur);
     var around = box_of(pixel, shape, level);
-    if any(around.zw < vec2<f32>(0.0)) | any(around.xy > frame.size.xy) {
+    if any(around.zw < vec2<f32>(0.0)) | any(around.xy > frame.size) {
         return true;
     }
     if level > 0u {
@@ -347,9 +347,9 @@ fn draw_stroke(order: u32, line: Line, seen: Seen, photons: vec4<f32>) -> bool {
     if room == 0xffffffffu {
         return false;
     }
-    light_up(order, around, frame.size.xy, level == 0u);
-    let half = shape.half * 2.0 / frame.size.xy;
-    let side = shape.side * 2.0 / frame.size.xy;
+    light_up(order, around, frame.size, level == 0u);
+    let half = shape.half * 2.0 / frame.size;
+    let side = shape.side * 2.0 / frame.size;
     let halves = array<u32, 2>(pack2x16float(light.xy), pack2x16float(light.zw));
     strokes[room / CORNERS] = Stroke(array(middle.x, middle.y), array(half.x, half.y), array(side.x, side.y), depth,
         shape.stretch / (2.0 * shape.blurred), halves);
@@ -373,11 +373,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let count = min(aurora.counts.z, arrayLength(&strokes));
     // Collisions of 35 eV, in kR km².
     let collisions = streak.share * segments[streak.segment].light.x;
-    let focal = frame.projection.xy * 0.5 * frame.size.xy;
+    let focal = frame.focal * 0.5 * frame.size;
     let top = chords[first].apparent;
     let foot = chords[first + chord_count].apparent;
     let is_linear = (aurora.history.w & AURORA_LINEAR) != 0u;
-    if is_linear & ((top.w * foot.w == 0.0) | (max(top.z, foot.z) > -frame.projection.z)) {
+    if is_linear & ((top.w * foot.w == 0.0) | (max(top.z, foot.z) > -frame.near)) {
         return;
     }
     var joined: Joined;

@@ -17,8 +17,8 @@ struct GasLight {
 /// Light of gas of this ln T seen at this ln g: a black body at gT. If the shift of colour or of brightness is switched off, that one is as
 /// at rest.
 fn gas_light(ln_temperature: f32, ln_g: f32) -> GasLight {
-    let doppler = (frame.switches.x & FLAG_DOPPLER) != 0u;
-    let beaming = (frame.switches.x & FLAG_BEAMING) != 0u;
+    let doppler = (frame.flags & FLAG_DOPPLER) != 0u;
+    let beaming = (frame.flags & FLAG_BEAMING) != 0u;
     let shifted = ln_temperature + ln_g;
     let shown = select(ln_temperature, shifted, doppler);
     let rgb = blackbody_rgb(exp(shown));

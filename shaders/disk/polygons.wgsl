@@ -20,7 +20,7 @@ fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     let gas = radial_gas(r);
     let ring = turning[bitcast<u32>(found.surface.z)];
     // The gas is that of the place where the light left.
-    let azimuth = place_in_disk.x + ring.y + ring.x * (frame.radial.w - found.apparent.w);
+    let azimuth = place_in_disk.x + ring.y + ring.x * (frame.camera_radius - found.apparent.w);
     let turn = 6.28318531 * azimuth;
     let outward = dot(found.leaving.xyz, vec3<f32>(cos(turn), sin(turn), 0.0)) > 0.0;
     let ratio = gas_ratio(found.apparent.xyz, r, outward, gas);

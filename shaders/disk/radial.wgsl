@@ -28,8 +28,8 @@ fn radial_gas(r: f32) -> RadialGas {
 fn gas_ratio(apparent: vec3<f32>, r: f32, outward: bool, gas: RadialGas) -> vec2<f32> {
     let past = (frame.rain_from_camera * vec4<f32>(normalize(apparent), -1.0)).xyz;
     let k = -past;
-    let n = frame.radial.xyz;
-    let energy = length(past) - frame.side_b.w * dot(n, k);
-    let found = disk_frequency(energy, cross(n * frame.radial.w, k), r, outward, gas.a.zw);
+    let n = frame.outward;
+    let energy = length(past) - frame.river_speed * dot(n, k);
+    let found = disk_frequency(energy, cross(n * frame.camera_radius, k), r, outward, gas.a.zw);
     return vec2<f32>(clamp(1.0 / found.x, 1e-3, 1e3), found.y);
 }

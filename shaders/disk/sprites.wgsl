@@ -78,8 +78,8 @@ fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
         let up = -disk.towards.w * c;
         let reach = sqrt(up * up + s * s);
         let side = (disk.upwards.xyz * up + disk.sideways.xyz * s) / max(reach, 1e-12);
-        ray = lens_lookup_at(there * c * disk.sideways.w - frame.radial.w, there * reach, there * c * disk.sideways.w, order);
-        let look = frame.radial.xyz * ray.cos_psi + side * (turn * ray.sin_psi);
+        ray = lens_lookup_at(there * c * disk.sideways.w - frame.camera_radius, there * reach, there * c * disk.sideways.w, order);
+        let look = frame.outward * ray.cos_psi + side * (turn * ray.sin_psi);
         apparent = (frame.camera_from_rain * vec4<f32>(look * ray.delay, -ray.delay)).xyz;
         if !ray.valid || ray.delay <= 0.0 || !finite_vector(apparent) {
             return nothing;
@@ -97,7 +97,7 @@ fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
     var across = (next_ring - seen) / apart;
     let along = next_spot - seen;
     // The same in pixels, and half the width of the spot across its length.
-    let pixels = 0.5 * frame.size.xy / seen.z;
+    let pixels = 0.5 * frame.size / seen.z;
     let aside = (across.xy - seen.xy * (across.z / seen.z)) * pixels;
     let ahead = (along.xy - seen.xy * (along.z / seen.z)) * pixels;
     let normal = vec2<f32>(-ahead.y, ahead.x) / max(length(ahead), 1e-12);

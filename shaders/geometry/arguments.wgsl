@@ -22,7 +22,7 @@ struct Arguments {
 fn next_pieces() {
     let filled = 1u - counters.turn;
     counters.turn = filled;
-    let count = min(atomicLoad(&counters.pieces[filled]), frame.capacity.z);
+    let count = min(atomicLoad(&counters.pieces[filled]), frame.capacity.work);
     atomicStore(&counters.pieces[1u - filled], 0u);
     counters.split += count;
     arguments.refine = vec4<u32>((count + 63u) / 64u, 1u, 1u, 0u);
@@ -31,19 +31,19 @@ fn next_pieces() {
 /// After the last: the mesh stage and the draws.
 @compute @workgroup_size(1)
 fn finish() {
-    let items = min(atomicLoad(&counters.work), frame.capacity.z);
+    let items = min(atomicLoad(&counters.work), frame.capacity.work);
     // Two dimensions: one holds 65,535 groups at most.
     arguments.mesh = vec4<u32>(min(items, 32768u), (items + 32767u) / 32768u, 1u, 0u);
-    let groups = (min(atomicLoad(&counters.vertices), frame.capacity.x) - counters.model_vertices + 63u) / 64u;
+    let groups = (min(atomicLoad(&counters.vertices), frame.capacity.vertices) - counters.model_vertices + 63u) / 64u;
     arguments.mesh_vertices = vec4<u32>(min(groups, 32768u), (groups + 32767u) / 32768u, 1u, 0u);
-    arguments.opaque = vec4<u32>(min(atomicLoad(&counters.indices), frame.capacity.y), 1u, 0u, 0u);
+    arguments.opaque = vec4<u32>(min(atomicLoad(&counters.indices), frame.capacity.indices), 1u, 0u, 0u);
 }
 
 /// After the mesh stage, which may add thin triangles.
 @compute @workgroup_size(1)
 fn finish_thin() {
     arguments.opaque_rest = vec4<u32>(0u, 0u, 0u, 0u);
-    let thin = min(atomicLoad(&counters.thin), frame.capacity.w);
+    let thin = min(atomicLoad(&counters.thin), frame.capacity.thin);
     arguments.thin = vec4<u32>(thin, 1u, 0u, 0u);
     let groups = (thin / 3u + 63u) / 64u;
     arguments.thin_lists = vec4<u32>(min(groups, 32768u), (groups + 32767u) / 32768u, 1u, 0u);

@@ -13,13 +13,13 @@ fn finite_vector(v: vec3<f32>) -> bool {
 /// line of sight it orders points as the light path does, and only this depth is linear over a flat triangle on the screen. With the near
 /// distance over the light path itself, what lies a hundredth farther would show through a triangle seen under a wide angle from close by.
 fn clip_position(apparent: vec3<f32>) -> vec4<f32> {
-    return vec4<f32>(apparent.xy * frame.projection.xy, frame.projection.z, -apparent.z);
+    return vec4<f32>(apparent.xy * frame.focal, frame.near, -apparent.z);
 }
 
 /// The angle of a pixel in the corners of the screen over that in the middle: the projection onto a plane stretches what is seen off its
 /// middle, by the square of the cosine.
 fn least_pixel() -> f32 {
-    let tangents = 1.0 / frame.projection.xy;
+    let tangents = 1.0 / frame.focal;
     return 1.0 / (1.0 + dot(tangents, tangents));
 }
 

@@ -24,19 +24,19 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     }
     let instance = instance_at(chunk.instance);
     let local = chunk.first + lane;
-    if local >= instance.vertices.w {
+    if local >= instance.edge_count {
         return;
     }
-    let edge = model_edge(instance.vertices.z + local);
-    let a = states[instance.ids.z + edge.x];
-    let b = states[instance.ids.z + edge.y];
-    let slot = instance.ids.w + local;
+    let edge = model_edge(instance.first_edge + local);
+    let a = states[instance.first_seen + edge.x];
+    let b = states[instance.first_seen + edge.y];
+    let slot = instance.first_state + local;
     if a.w == VERTEX_UNSEEN || b.w == VERTEX_UNSEEN {
         states[slot] = vec4<f32>(bitcast<f32>(1u), bitcast<f32>(EDGE_UNSEEN), 0.0, 0.0);
         return;
     }
-    let from_seen = seen[instance.ids.z + edge.x];
-    let to_seen = seen[instance.ids.z + edge.y];
+    let from_seen = seen[instance.first_seen + edge.x];
+    let to_seen = seen[instance.first_seen + edge.y];
     let cut = cut_by_axis(instance, a, b, from_seen.apparent.xyz);
     if cut >= 0.0 {
         states[slot] = vec4<f32>(bitcast<f32>(1u), bitcast<f32>(EDGE_CUT), cut, 0.0);
@@ -45,8 +45,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     var ends: Ends;
     ends.a = a;
     ends.b = b;
-    ends.body_a = model_position(instance.vertices.x + edge.x);
-    ends.body_b = model_position(instance.vertices.x + edge.y);
+    ends.body_a = model_position(instance.first_vertex + edge.x);
+    ends.body_b = model_position(instance.first_vertex + edge.y);
     ends.apparent_a = from_seen.apparent.xyz;
     ends.apparent_b = to_seen.apparent.xyz;
     ends.radius = from_seen.leaving.w;
@@ -81,7 +81,7 @@ fn cut_by_axis(instance: Instance, a: vec4<f32>, b: vec4<f32>, apparent: vec3<f3
     let t = clamp(-dot(a.xy, d) / max(dot(d, d), 1e-30), 0.0, 1.0);
     let foot = mix(a.xyz, b.xyz, vec3<f32>(t));
     let plain = a.w == VERTEX_PLAIN && b.w == VERTEX_PLAIN;
-    let cut = plain && length(foot.xy) < axis_core(instance, apparent) && axis_matters(foot.z, instance.ids.x);
+    let cut = plain && length(foot.xy) < axis_core(instance, apparent) && axis_matters(foot.z, instance.order);
     return select(-1.0, t, cut);
 }
 
@@ -95,11 +95,11 @@ struct Division {
 fn divide(instance: Instance, ends: Ends) -> Division {
     let a = ends.a.xyz;
     let b = ends.b.xyz;
-    let order = instance.ids.x;
+    let order = instance.order;
     let nearest = min(length(a.xy), length(b.xy));
     let fineness = pixel_fineness(ends.apparent_a, ends.apparent_b);
     // Of a pixel at the edge, in r_s.
-    let pixel = frame.size.z / fineness * length(ends.apparent_a);
+    let pixel = frame.pixel / fineness * length(ends.apparent_a);
     let closer = fineness * max(select(1.0, limb_strictness(instance), ends.limb), ring_strictness(instance, nearest, pixel, a.z));
     let seen_under = angle_between(ends.apparent_a, ends.apparent_b);
     let radial = ends.a.w == VERTEX_ON_AXIS || ends.b.w == VERTEX_ON_AXIS;
@@ -127,13 +127,13 @@ fn is_short(instance: Instance, ends: Ends, closer: f32, seen_under: f32) -> boo
     let fineness = pixel_fineness(ends.apparent_a, ends.apparent_b);
     let edge_length = distance(ends.a.xyz, ends.b.xyz);
     let nearest = min(length(ends.a.xy), length(ends.b.xy));
-    let least_radius = min(frame.radial.w, ends.radius);
+    let least_radius = min(frame.camera_radius, ends.radius);
     let tide = 4.5 * edge_length * edge_length * length(ends.apparent_a) / (least_radius * least_radius * least_radius);
-    let quarter = 0.25 * frame.size.w / (closer * slimness(instance));
-    let straight = select(0.0625, min(0.0625, 8.0 * quarter), axis_matters(ends.a.z, instance.ids.x) && !is_thin(instance));
-    let small = (!ends.limb && seen_under < 8.0 * frame.size.z / fineness * inverseSqrt(slimness(instance)))
+    let quarter = 0.25 * frame.error_budget / (closer * slimness(instance));
+    let straight = select(0.0625, min(0.0625, 8.0 * quarter), axis_matters(ends.a.z, instance.order) && !is_thin(instance));
+    let small = (!ends.limb && seen_under < 8.0 * frame.pixel / fineness * inverseSqrt(slimness(instance)))
         || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
-    return seen_under < 2.0 * frame.size.w / fineness || (small && edge_length * edge_length < straight * nearest * nearest);
+    return seen_under < 2.0 * frame.error_budget / fineness || (small && edge_length * edge_length < straight * nearest * nearest);
 }
 
 /// The error of the chord of an edge (radians), from points at ¼, ½, ¾. A radial edge runs from the axis, with the azimuth of its other
@@ -151,12 +151,12 @@ fn bend(instance: Instance, ends: Ends, radial: bool) -> f32 {
         if radial {
             query = query_fan(apex, outer, t);
         }
-        let found = answer(instance, query, instance.ids.x).ray;
+        let found = answer(instance, query, instance.order).ray;
         points[k] = found.apparent;
         if k == 2u && !radial {
             tangent = ring_tangent(found);
         }
-        whole = whole && (found.valid || (frame.switches.x & FLAG_INSIDE) == 0u);
+        whole = whole && (found.valid || (frame.flags & FLAG_INSIDE) == 0u);
     }
     let slack = slack_of(instance, tangent, min(length(ends.a.xy), length(ends.b.xy)), ends.a.z);
     // For a camera inside, if a part of the edge is not seen, its image ends there; splitting finds no more of it.

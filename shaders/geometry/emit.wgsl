@@ -7,7 +7,7 @@
 #import lensrunner::geometry::clip::clip_position
 #import lensrunner::geometry::patch::{BLOCK, Facing, facing_of}
 #import lensrunner::gpu::bindings::frame
-#import lensrunner::gpu::types::{Instance, is_thin, Piece, PIECE_FAN, PIECE_STRIP, PIECE_TRIANGLE, ThinVertex, WorkItem}
+#import lensrunner::gpu::types::{Capacity, Instance, is_thin, Piece, PIECE_FAN, PIECE_STRIP, PIECE_TRIANGLE, ThinVertex, WorkItem}
 #import lensrunner::instances::bounds::leaves_bounds
 #import lensrunner::instances::instance::{in_body_axes, instance_at}
 #import lensrunner::models::hiding::seen_part
@@ -24,7 +24,7 @@ fn height_on_screen(p0: vec2<f32>, p1: vec2<f32>, p2: vec2<f32>) -> f32 {
 }
 
 fn pixels(clip: vec4<f32>) -> vec2<f32> {
-    return clip.xy / clip.w * 0.5 * frame.size.xy;
+    return clip.xy / clip.w * 0.5 * frame.size;
 }
 
 /// Sides and heights below this, in pixels, are widened only as much as one of this length: f32 pixels (3e-5 at 500) do not resolve them.
@@ -33,7 +33,7 @@ const LEAST_HEIGHT: f32 = 1e-3;
 
 /// Factors by which a thin triangle is drawn longer and higher than it is, to the least width.
 fn stretched(length_along: f32, height: f32) -> vec2<f32> {
-    let least = frame.side_a.w;
+    let least = frame.least_width;
     return vec2<f32>(max(1.0, least / max(length_along, LEAST_ALONG)), least / max(height, LEAST_HEIGHT));
 }
 
@@ -47,9 +47,9 @@ fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, stretch: vec2<f3
 /// The share of a triangle whose light crosses the disk's plane as often as the image order says; that of the rest crosses it once less. As
 /// `plane_crossings` of Rust, for images whose parts differ, from the heights of the corners over the plane.
 fn share_across(instance: Instance, heights: vec3<f32>) -> f32 {
-    let order = instance.ids.x;
-    if instance.snap.w >= 0.0 {
-        return select(0.0, 1.0, instance.snap.w == f32(order));
+    let order = instance.order;
+    if instance.crossings >= 0.0 {
+        return select(0.0, 1.0, instance.crossings == f32(order));
     }
     // First the corner that is alone on its side of the plane, if there is one: the plane cuts off its share of the area.
     let below = heights < vec3<f32>(0.0);
@@ -59,7 +59,7 @@ fn share_across(instance: Instance, heights: vec3<f32>) -> f32 {
     let cut = (h.x < 0.0) != (h.y < 0.0);
     let part = select(1.0, h.x * h.x / ((h.x - h.y) * (h.x - h.z)), cut);
     let above = select(part, 1.0 - part, h.x < 0.0);
-    let other_side = select(1.0 - above, above, frame.radial.z < 0.0);
+    let other_side = select(1.0 - above, above, frame.outward.z < 0.0);
     return select(other_side, 1.0 - other_side, order % 2u == 0u);
 }
 
@@ -76,7 +76,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
     let c0 = clip_position(seen[i0].apparent.xyz);
     let c1 = clip_position(seen[i1].apparent.xyz);
     let c2 = clip_position(seen[i2].apparent.xyz);
-    let near = frame.projection.z;
+    let near = frame.near;
     if c0.w < near || c1.w < near || c2.w < near {
         return false;
     }
@@ -85,7 +85,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
     let p2 = pixels(c2);
     let turned = height_on_screen(p0, p1, p2);
     let height = abs(turned);
-    if height >= frame.side_a.w {
+    if height >= frame.least_width {
         return false;
     }
     // The sum of coverages is right only if each line of sight meets one layer, so backs of closed bodies are left out.
@@ -117,14 +117,14 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
         return true;
     }
     let slot = atomicAdd(&counters.thin, 3u);
-    if slot + 3u > frame.capacity.w {
+    if slot + 3u > frame.capacity.thin {
         atomicSub(&counters.thin, 3u);
         return false;
     }
     let centre = (p0 + p1 + p2) / 3.0;
-    let order = f32(instance.ids.x);
+    let order = f32(instance.order);
     let share = share_across(instance, vec3<f32>(seen[i0].fan.w, seen[i1].fan.w, seen[i2].fan.w));
-    let scale = 2.0 / frame.size.xy;
+    let scale = 2.0 / frame.size;
     thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, stretch) * scale * c0.w, c0.zw),
         vec4<f32>(bitcast<f32>(i0), coverage, order, share));
     thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, stretch) * scale * c1.w, c1.zw),
@@ -140,7 +140,7 @@ fn emit_triangle(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, 
         return;
     }
     let slot = atomicAdd(&counters.indices, 3u);
-    if slot + 3u > frame.capacity.y {
+    if slot + 3u > frame.capacity.indices {
         atomicAdd(&counters.lost, 1u);
         return;
     }
@@ -149,9 +149,18 @@ fn emit_triangle(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, 
     indices[slot + 2u] = i2;
 }
 
+/// What may be taken: all, or so much that there is room left for what is drawn coarsely.
+fn room_for(coarse: bool) -> Capacity {
+    let all = frame.capacity;
+    if coarse {
+        return all;
+    }
+    return Capacity(all.vertices - all.vertices / 5u, all.indices - all.indices / 5u, all.work - all.work / 5u, all.thin - all.thin / 5u);
+}
+
 /// Takes room for the blocks of a piece, so that a full buffer is noticed while a coarser way is left. False if there is less room than
 /// `most` allows.
-fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: vec4<u32>) -> bool {
+fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: Capacity) -> bool {
     let fan = piece.what.z != PIECE_TRIANGLE;
     var row = 0u;
     loop {
@@ -163,24 +172,24 @@ fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: v
             let w = min(BLOCK, columns - column);
             let vertex_count = select((h + 1u) * (h + 2u) / 2u, (h + 1u) * (w + 1u), fan);
             let index_count = 3u * select(h * h, 2u * h * w, fan);
-            if atomicLoad(&counters.work) >= most.z || atomicLoad(&counters.vertices) + vertex_count > most.x
-                || atomicLoad(&counters.indices) + index_count > most.y {
+            if atomicLoad(&counters.work) >= most.work || atomicLoad(&counters.vertices) + vertex_count > most.vertices
+                || atomicLoad(&counters.indices) + index_count > most.indices {
                 return false;
             }
             // On a graphics card thousands of threads may have passed that test. Without vertices nothing else is taken, so that there are
             // always indices for the triangles of the model.
             let first_vertex = atomicAdd(&counters.vertices, vertex_count);
-            if first_vertex + vertex_count > frame.capacity.x {
+            if first_vertex + vertex_count > frame.capacity.vertices {
                 return false;
             }
             let slot = atomicAdd(&counters.work, 1u);
             let first_index = atomicAdd(&counters.indices, index_count);
-            if slot >= frame.capacity.z || first_index + index_count > frame.capacity.y {
+            if slot >= frame.capacity.work || first_index + index_count > frame.capacity.indices {
                 // Other threads took the rest meanwhile. What was taken is left empty, so that no stale data is drawn.
-                if slot < frame.capacity.z {
+                if slot < frame.capacity.work {
                     work[slot].place = vec4<u32>(0u);
                 }
-                for (var i = first_index; i < min(first_index + index_count, frame.capacity.y); i++) {
+                for (var i = first_index; i < min(first_index + index_count, frame.capacity.indices); i++) {
                     indices[i] = 0u;
                 }
                 return false;
@@ -253,8 +262,8 @@ fn hand_over(queue: u32) {
         var done = false;
         if kind == HANDED_PIECE {
             let slot = atomicAdd(&counters.pieces[queue], 1u);
-            if slot < frame.capacity.z && counters.split < MOST_SPLIT * frame.capacity.z {
-                pieces[queue * frame.capacity.z + slot] = piece;
+            if slot < frame.capacity.work && counters.split < MOST_SPLIT * frame.capacity.work {
+                pieces[queue * frame.capacity.work + slot] = piece;
                 done = true;
             } else {
                 atomicSub(&counters.pieces[queue], 1u);
@@ -274,15 +283,15 @@ fn hand_over(queue: u32) {
                 }
                 piece.what.z = select(piece.what.z, PIECE_TRIANGLE, piece.what.z == PIECE_STRIP);
             }
-            let room = select(frame.capacity - frame.capacity / 5u, frame.capacity, coarse);
+            let room = room_for(coarse);
             let size = select(item.grid.xy, vec2<u32>(1u), coarse);
             done = emit_blocks(piece, select(item.levels, vec4<u32>(1u), coarse), size.x, size.y, room);
         }
         if !done {
             let instance = instance_at(piece.what.x);
             let triangle = model_triangle(piece.what.y);
-            let corners = triangle.vertices.xyz + vec3<u32>(instance.ids.z);
-            emit_triangle(corners.x, corners.y, corners.z, instance, facing_of(instance, triangle, instance.offset.xyz), triangle.edges.w);
+            let corners = triangle.vertices.xyz + vec3<u32>(instance.first_seen);
+            emit_triangle(corners.x, corners.y, corners.z, instance, facing_of(instance, triangle, instance.offset), triangle.edges.w);
         }
     }
 }
@@ -290,8 +299,8 @@ fn hand_over(queue: u32) {
 /// Whether a patch with these corners is surely off the screen: all corners are beyond one side, or before the near plane, by more than the
 /// patch sags.
 fn off_screen(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, error: f32) -> bool {
-    let fx = frame.projection.x;
-    let fy = frame.projection.y;
+    let fx = frame.focal.x;
+    let fy = frame.focal.y;
     let sx = inverseSqrt(1.0 + fx * fx);
     let sy = inverseSqrt(1.0 + fy * fy);
     // A third more than the measured error: the curve may bulge most between the measured points.
@@ -301,5 +310,5 @@ fn off_screen(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, error: f32) -> bool {
     let y = vec3<f32>(a.y, b.y, c.y);
     let z = -vec3<f32>(a.z, b.z, c.z);
     return all((z - x * fx) * sx < -margin) || all((z + x * fx) * sx < -margin)
-        || all((z - y * fy) * sy < -margin) || all((z + y * fy) * sy < -margin) || all(z - frame.projection.z < -margin);
+        || all((z - y * fy) * sy < -margin) || all((z + y * fy) * sy < -margin) || all(z - frame.near < -margin);
 }

@@ -39,9 +39,9 @@ fn axis_is_outside(height: f32, order: u32) -> bool {
 /// source does, that of the third order by a twentieth. Thin images are sums of areas and would become too bright. `apparent` is where the
 /// fan's outer point is seen: arcs are cut by the budget there.
 fn past_axis(instance: Instance, query: Query, apparent: vec3<f32>) -> f32 {
-    let budget = frame.size.w / pixel_fineness(apparent, apparent);
-    let past = 4.0 * ARC_SHARE * budget * abs(query.along) * select(1.0, 10.0, instance.ids.x == 3u);
-    return select(0.0, past, axis_is_outside(query.height, instance.ids.x) && !is_thin(instance));
+    let budget = frame.error_budget / pixel_fineness(apparent, apparent);
+    let past = 4.0 * ARC_SHARE * budget * abs(query.along) * select(1.0, 10.0, instance.order == 3u);
+    return select(0.0, past, axis_is_outside(query.height, instance.order) && !is_thin(instance));
 }
 
 /// One thread per new vertex: evaluates the projection. Threads are not bound to work items, whose vertices are often few: a group that
@@ -50,7 +50,7 @@ fn past_axis(instance: Instance, query: Query, apparent: vec3<f32>) -> f32 {
 fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
     let index = counters.model_vertices + (group.y * groups.x + group.x) * 64u + lane;
-    if index >= min(atomicLoad(&counters.vertices), frame.capacity.x) {
+    if index >= min(atomicLoad(&counters.vertices), frame.capacity.vertices) {
         return;
     }
     // Written by the stage that made the item.
@@ -84,14 +84,14 @@ fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
 fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;
-    if index >= min(atomicLoad(&counters.work), frame.capacity.z) {
+    if index >= min(atomicLoad(&counters.work), frame.capacity.work) {
         return;
     }
     let place = work[index].place;
     let what = work[index].piece.what;
     let grid = work[index].grid;
     let instance = instance_at(what.x);
-    let facing = facing_of(instance, model_triangle(what.y), instance.offset.xyz);
+    let facing = facing_of(instance, model_triangle(what.y), instance.offset);
     let seen_from = model_triangle(what.y).edges.w;
     let w = min(BLOCK, grid.y - grid.w);
     let first = place.x;
@@ -215,7 +215,7 @@ fn strip_point(item: WorkItem, row: u32, column: u32) -> vec3<f32> {
 
 /// Texture coordinates of barycentric coordinates in a model triangle.
 fn texture_coordinates(instance: Instance, triangle: ModelTriangle, corner: vec3<f32>) -> vec2<f32> {
-    let first = instance.vertices.x;
+    let first = instance.first_vertex;
     let v0 = model_vertex(first + triangle.vertices.x);
     let v1 = model_vertex(first + triangle.vertices.y);
     let v2 = model_vertex(first + triangle.vertices.z);
@@ -228,7 +228,7 @@ fn texture_coordinates(instance: Instance, triangle: ModelTriangle, corner: vec3
 fn vertex_at(item: WorkItem, instance: Instance, triangle: ModelTriangle, point: vec3<f32>, s: f32) -> SeenVertex {
     if s == 1.0 && (point.x == 1.0 || point.y == 1.0 || point.z == 1.0) {
         let which = select(select(triangle.vertices.z, triangle.vertices.y, point.y == 1.0), triangle.vertices.x, point.x == 1.0);
-        return seen[instance.ids.z + which];
+        return seen[instance.first_seen + which];
     }
     // Inside a fan: the axis point and the outer point at their emission times, then the position between them. Elsewhere the point alone,
     // and again if it is moved past the axis.
@@ -244,35 +244,35 @@ fn vertex_at(item: WorkItem, instance: Instance, triangle: ModelTriangle, point:
             query = query_body(body_point(instance, triangle, item.piece.corner_a.xyz));
         } else if k == 2u {
             query = query_fan(apex, found.by_axis, s);
-            query.height = mix(apex_height, dot(found.position, frame.radial.xyz), s);
+            query.height = mix(apex_height, dot(found.position, frame.outward), s);
             let past = past_axis(instance, query, found.ray.apparent);
             if query.across < past {
                 fan_place = select(s, -min(past / max(length(found.by_axis.xy), 1e-9), 0.5), s == 0.0);
                 query.across = -past;
             }
         }
-        let next = answer(instance, query, instance.ids.x);
+        let next = answer(instance, query, instance.order);
         if k == 0u {
             apex = next.by_axis.z;
-            apex_height = dot(next.position, frame.radial.xyz);
+            apex_height = dot(next.position, frame.outward);
         } else {
             found = next;
             attitude = select(attitude, next.attitude, k == 1u);
         }
         if k == 1u && s == 1.0 {
-            let height = dot(found.position, frame.radial.xyz);
+            let height = dot(found.position, frame.outward);
             let here = Query(body, true, found.by_axis.z, length(found.by_axis.xy), height, vec3<f32>(0.0));
             count = select(2u, 3u, found.ray.valid && here.across < past_axis(instance, here, found.ray.apparent));
         }
     }
     let corner = mix(item.piece.corner_a.xyz, point, vec3<f32>(s));
-    let first = instance.vertices.x;
+    let first = instance.first_vertex;
     let v0 = model_vertex(first + triangle.vertices.x);
     let v1 = model_vertex(first + triangle.vertices.y);
     let v2 = model_vertex(first + triangle.vertices.z);
     let normal = v0.normal * corner.x + v1.normal * corner.y + v2.normal * corner.z;
     var vertex = seen_vertex(instance, item.piece.what.x, found, attitude, normal.xyz,
-        texture_coordinates(instance, triangle, point), v0.info.x + instance.triangles.z);
+        texture_coordinates(instance, triangle, point), v0.info.x + instance.first_material);
     if !found.ray.valid || !finite_vector(found.ray.apparent) {
         atomicAdd(&counters.caught, 1u);
         vertex.apparent = vec4<f32>(0.0, 0.0, 0.0, 0.0);

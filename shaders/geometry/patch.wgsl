@@ -23,8 +23,8 @@ const BLOCK: u32 = 8u;
 
 /// The emitter's momentum and γ: the object's own, or for one that is held in place everywhere, that of what is held there.
 fn momentum_at(instance: Instance, position: vec3<f32>) -> vec4<f32> {
-    if (instance.triangles.w & INSTANCE_HELD) == 0u {
-        return instance.momentum;
+    if (instance.flags & INSTANCE_HELD) == 0u {
+        return vec4<f32>(instance.momentum, instance.gamma);
     }
     return held_momentum(position);
 }
@@ -47,12 +47,12 @@ fn seen_vertex(instance: Instance, index: u32, found: Answer, attitude: vec4<f32
 /// Whether the image of this order ends at the axis: behind the hole (φ = π) always, on the near side (φ = 0) from order 2 on. `along` is
 /// the offset from the camera along the outward radial.
 fn axis_matters(along: f32, order: u32) -> bool {
-    return frame.radial.w + along < 0.0 || order >= 2u;
+    return frame.camera_radius + along < 0.0 || order >= 2u;
 }
 
 /// The offset from the camera, in rain axes, of a position by the axis (`Answer.by_axis`).
 fn offset_of(by_axis: vec3<f32>) -> vec3<f32> {
-    return frame.side_a.xyz * by_axis.x + frame.side_b.xyz * by_axis.y + frame.radial.xyz * by_axis.z;
+    return frame.side_a * by_axis.x + frame.side_b * by_axis.y + frame.outward * by_axis.z;
 }
 
 /// The cross product of two positions across the axis: twice the area of the triangle that they make with the axis, positive if b is
@@ -81,7 +81,7 @@ fn meets_axis(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, order: u32) -> vec3<f32>
 /// turn by less than a third of a circle does not reach across the ring, and with much smaller turns equal parts of an edge turn about
 /// equally. Thin and narrow images lie mostly near the ring, so their limit is smaller.
 fn most_turn(instance: Instance) -> f32 {
-    return select(0.5, 0.25, (instance.triangles.w & (INSTANCE_THIN | INSTANCE_NARROW)) != 0u);
+    return select(0.5, 0.25, (instance.flags & (INSTANCE_THIN | INSTANCE_NARROW)) != 0u);
 }
 
 /// The turn of an edge about the axis, in radians, from its ends as positions by the axis; 0 where the image does not end at the axis.
@@ -100,14 +100,14 @@ fn turn_along(a: vec3<f32>, quarter: vec3<f32>, middle: vec3<f32>, three_quarter
 /// Whether three positions by the axis are so near to it that f32 tells nothing of their azimuths. Nothing is visible between them.
 fn is_lost(instance: Instance, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
     let farthest = max(length(a.xy), max(length(b.xy), length(c.xy)));
-    return farthest < 8.0 * instance.axis.z && axis_matters(a.z, instance.ids.x);
+    return farthest < 8.0 * instance.rounding && axis_matters(a.z, instance.order);
 }
 
 /// Whether three positions by the axis are so near to it that rounding decides on the last percents of a turn. A piece there is drawn by
 /// its corners alone, if it turns little, or left out: its part of the ring is a small part of a pixel wide, but a chord would be seen.
 fn is_blurred(instance: Instance, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
     let farthest = max(length(a.xy), max(length(b.xy), length(c.xy)));
-    return farthest < BLURRED_ROUNDINGS * instance.axis.z && axis_matters(a.z, instance.ids.x);
+    return farthest < BLURRED_ROUNDINGS * instance.rounding && axis_matters(a.z, instance.order);
 }
 
 /// Roundings from the axis within which positions are blurred.
@@ -141,8 +141,8 @@ const CORE_ROUNDINGS: f32 = 8.0;
 /// point moved onto the axis is seen elsewhere on the ring: from a tenth of a pixel beside the axis, half a pixel off at most, on a ring as
 /// wide as the screen. In a thin image areas count, and the object may be a small part of a pixel: there only rounding counts.
 fn axis_core(instance: Instance, apparent: vec3<f32>) -> f32 {
-    let pixel = frame.size.z / pixel_fineness(apparent, apparent) * length(apparent);
-    return select(max(CORE_ROUNDINGS * instance.axis.z, 0.1 * pixel / frame.size.x), instance.axis.z, is_thin(instance));
+    let pixel = frame.pixel / pixel_fineness(apparent, apparent) * length(apparent);
+    return select(max(CORE_ROUNDINGS * instance.rounding, 0.1 * pixel / frame.size.x), instance.rounding, is_thin(instance));
 }
 
 /// Within this share of a pixel of the axis all that is visible is that the ring is whole.
@@ -150,7 +150,7 @@ const AXIS_SHARE: f32 = 0.02;
 
 /// The most segments that an edge needs between two positions by the axis, where a pixel spans `pixel`, in r_s.
 fn most_segments(instance: Instance, a: vec3<f32>, b: vec3<f32>, pixel: f32) -> u32 {
-    let core = max(length(a.xy), length(b.xy)) < AXIS_SHARE * pixel && axis_matters(a.z, instance.ids.x);
+    let core = max(length(a.xy), length(b.xy)) < AXIS_SHARE * pixel && axis_matters(a.z, instance.order);
     return select(0xffffu, BLOCK, core);
 }
 
@@ -171,10 +171,10 @@ const ARC_SHARE: f32 = 0.015625;
 /// number. A whole edge of the model may be halved `switches.y` times; `part` is the share of it that the chord spans, so that both of its
 /// sides agree.
 fn level_for(error: f32, part: f32) -> u32 {
-    let n = ceil(sqrt(error / (select(CHORD_SHARE, 1.0, by_midpoint()) * frame.size.w)));
+    let n = ceil(sqrt(error / (select(CHORD_SHARE, 1.0, by_midpoint()) * frame.error_budget)));
     // Not-a-number compares false.
     if n > 1.0 {
-        return u32(clamp(n, 1.0, max(part * f32(1u << frame.switches.y), 1.0)));
+        return u32(clamp(n, 1.0, max(part * f32(1u << frame.halvings), 1.0)));
     }
     return 1u;
 }
@@ -187,17 +187,17 @@ fn part_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
 
 /// Whether edges are divided by their midpoints alone, all alike: the criterion of Yamashita 2025.
 fn by_midpoint() -> bool {
-    return (frame.switches.x & FLAG_MIDPOINT) != 0u;
+    return (frame.flags & FLAG_MIDPOINT) != 0u;
 }
 
 /// Factor by which the error of all chords of an image counts more, from its width and the fineness of its model.
 fn strictness(instance: Instance) -> f32 {
-    return select(instance.axis.w, 1.0, by_midpoint());
+    return select(instance.strictness, 1.0, by_midpoint());
 }
 
 /// The same for slim images that are not thin: all their edges are near an outline and would bulge over it.
 fn slimness(instance: Instance) -> f32 {
-    return select(instance.axis.w, 1.0, is_thin(instance));
+    return select(instance.strictness, 1.0, is_thin(instance));
 }
 
 /// Factor for outlines: there an error shows as surface where there is none.
@@ -213,7 +213,7 @@ fn limb_strictness(instance: Instance) -> f32 {
     if is_thin(instance) {
         return THIN_LIMB_STRICTNESS;
     }
-    let outline = select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS, (instance.triangles.w & INSTANCE_NARROW) != 0u);
+    let outline = select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS, (instance.flags & INSTANCE_NARROW) != 0u);
     return select(max(outline / slimness(instance), 1.0), 1.0, by_midpoint());
 }
 
@@ -223,7 +223,7 @@ fn limb_strictness(instance: Instance) -> f32 {
 fn ring_strictness(instance: Instance, nearest: f32, pixel: f32, along: f32) -> f32 {
     let pixels_away = nearest / pixel;
     let closer = clamp(1.0 / max(pixels_away, 1e-6), 1.0, LIMB_STRICTNESS);
-    return select(1.0, max(closer / slimness(instance), 1.0), axis_matters(along, instance.ids.x) && !by_midpoint());
+    return select(1.0, max(closer / slimness(instance), 1.0), axis_matters(along, instance.order) && !by_midpoint());
 }
 
 /// If light leaves a triangle under a sine below this, it may be seen edge on somewhere.
@@ -234,7 +234,7 @@ const LIMB_SINE: f32 = 0.15;
 /// with corners. Nor do positions on the screen: an edge stretched along the ring bends by more than the width of its triangles. `edge` has
 /// the two vertices of the edge and the two opposite to it.
 fn on_limb(instance: Instance, edge: vec4<u32>, leaving_a: vec3<f32>, leaving_b: vec3<f32>, offset: vec3<f32>) -> bool {
-    let first = instance.vertices.x;
+    let first = instance.first_vertex;
     let corner = model_position(first + edge.x);
     let along = shaped(instance, model_position(first + edge.y) - corner);
     let c = shaped(instance, model_position(first + edge.z) - corner);
@@ -285,7 +285,7 @@ fn ring_tangent(ray: Sight) -> vec3<f32> {
     let seen_at = -ray.arriving.xyz / ray.arriving.w;
     // The light's null vector (seen_at, −1) and its change for a turn about the axis, both in camera axes.
     let light = ray.apparent / ray.delay;
-    let turned = (frame.camera_from_rain * vec4<f32>(cross(frame.radial.xyz, seen_at), 0.0)).xyz;
+    let turned = (frame.camera_from_rain * vec4<f32>(cross(frame.outward, seen_at), 0.0)).xyz;
     return (turned - light * (dot(light, turned) / dot(light, light))) * inverseSqrt(dot(light, light));
 }
 
@@ -293,11 +293,11 @@ fn ring_tangent(ray: Sight) -> vec3<f32> {
 /// `axis_matters`.
 fn slack_of(instance: Instance, tangent: vec3<f32>, nearest: f32, along: f32) -> Slack {
     let radius = length(tangent);
-    if !axis_matters(along, instance.ids.x) || !(radius > 1e-6) {
+    if !axis_matters(along, instance.order) || !(radius > 1e-6) {
         return exact();
     }
     // Two points may be displaced against each other by twice that.
-    return Slack(tangent / radius, 2.0 * radius * instance.axis.z / max(nearest, instance.axis.z));
+    return Slack(tangent / radius, 2.0 * radius * instance.rounding / max(nearest, instance.rounding));
 }
 
 /// The square of the tangent of the angle between two directions, less what is slack; from a right angle on, as good as infinite.
@@ -314,7 +314,7 @@ fn slant(a: vec3<f32>, b: vec3<f32>, slack: Slack) -> f32 {
 /// The body point of barycentric coordinates in a model triangle. The fused products are written out, in this order: a driver that fuses as
 /// it likes would give the point of an edge other bits in each of its two triangles.
 fn body_point(instance: Instance, triangle: ModelTriangle, corner: vec3<f32>) -> vec3<f32> {
-    let first = instance.vertices.x;
+    let first = instance.first_vertex;
     let a = model_position(first + triangle.vertices.x) * corner.x;
     let b = fma(model_position(first + triangle.vertices.y), vec3<f32>(corner.y), a);
     return fma(model_position(first + triangle.vertices.z), vec3<f32>(corner.z), b);
@@ -346,7 +346,7 @@ fn turned_away(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>, l
 
 /// A unit normal of a model triangle in the rest frame of what is at `offset` from the camera.
 fn plane_normal(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
-    let first = instance.vertices.x;
+    let first = instance.first_vertex;
     let corner = model_position(first + triangle.vertices.x);
     let a = shaped(instance, model_position(first + triangle.vertices.y) - corner);
     let b = shaped(instance, model_position(first + triangle.vertices.z) - corner);
@@ -366,7 +366,7 @@ struct Facing {
 /// The facing of a model triangle at `offset` from the camera. Light that has passed the axis once (even orders) shows its source mirrored.
 fn facing_of(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> Facing {
     let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
-    let mirrored = select(1.0, -1.0, instance.ids.x == 2u);
+    let mirrored = select(1.0, -1.0, instance.order == 2u);
     let both = two_sided(instance);
     return Facing(plane_normal(instance, triangle, offset) * sign, select(sign * mirrored, 0.0, both),
         triangle.vertices.w != SIDE_OPEN && !both);
@@ -375,7 +375,7 @@ fn facing_of(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> 
 /// The unit normal of a plane on the slice, transformed to the rest frame of what is at `offset` from the camera: along the motion lengths
 /// are γ times longer there.
 fn at_rest(instance: Instance, on_slice: vec3<f32>, offset: vec3<f32>) -> vec3<f32> {
-    let momentum = momentum_at(instance, frame.radial.xyz * frame.radial.w + offset);
+    let momentum = momentum_at(instance, frame.outward * frame.camera_radius + offset);
     let n = on_slice - momentum.xyz * (dot(momentum.xyz, on_slice) / (momentum.w * (1.0 + momentum.w)));
     return n / max(length(n), 1e-30);
 }
@@ -405,7 +405,7 @@ fn edge_point(a: vec3<f32>, b: vec3<f32>, t: f32) -> vec3<f32> {
 /// itself.
 fn query_fan(apex: f32, outer: vec3<f32>, s: f32) -> Query {
     let along = mix(apex, outer.z, s);
-    return Query(vec3<f32>(0.0), true, along, length(outer.xy) * s, frame.radial.w + along, side_towards(outer.xy));
+    return Query(vec3<f32>(0.0), true, along, length(outer.xy) * s, frame.camera_radius + along, side_towards(outer.xy));
 }
 
 /// An edge with a smaller turn about the axis, in radians, is halved in its middle.

@@ -28,7 +28,7 @@ struct Sight {
 fn sight(along: f32, across: f32, height: f32, side: vec3<f32>, order: u32, elapsed: f32) -> Sight {
     let ray = method_ray(along, across, height, order, elapsed);
     let turn = select(1.0, -1.0, order == 2u);
-    let n = frame.radial.xyz;
+    let n = frame.outward;
     // The direction from which light comes at the camera; even orders come from the other side.
     let seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
 
@@ -51,9 +51,9 @@ fn sight(along: f32, across: f32, height: f32, side: vec3<f32>, order: u32, elap
 fn side_towards(across: vec2<f32>) -> vec3<f32> {
     let distance = length(across);
     if distance > 0.0 {
-        return (frame.side_a.xyz * across.x + frame.side_b.xyz * across.y) / distance;
+        return (frame.side_a * across.x + frame.side_b * across.y) / distance;
     }
-    return frame.side_a.xyz;
+    return frame.side_a;
 }
 
 /// ν_observed/ν_emitted for an emitter of rain-frame momentum `momentum` (xyz, γ).
@@ -119,7 +119,7 @@ fn answer(instance: Instance, query: Query, order: u32) -> Answer {
     var early = -NEVER;
     var late = NEVER;
     var back = 0.0;
-    let moves = instance.velocity.w != 0.0;
+    let moves = instance.scale != 0.0;
     let finest = least_pixel();
     let steps = select(0u, EMISSION_STEPS, moves);
     for (var i = 0u; i <= steps; i++) {
@@ -129,22 +129,22 @@ fn answer(instance: Instance, query: Query, order: u32) -> Answer {
         var side = query.side;
         var velocity = vec3<f32>(0.0);
         if query.fixed {
-            result.by_axis = vec3<f32>(dot(side, frame.side_a.xyz) * across, dot(side, frame.side_b.xyz) * across, along);
-            result.position = frame.radial.xyz * height + side * across;
+            result.by_axis = vec3<f32>(dot(side, frame.side_a) * across, dot(side, frame.side_b) * across, along);
+            result.position = frame.outward * height + side * across;
         } else {
             let swing = swing_at(instance, query.body, s);
             velocity = swing.velocity;
             result.attitude = swing.attitude;
-            result.position = instance.position.xyz + swing.offset;
-            let beside = instance.axis.xy + vec2<f32>(dot(swing.offset, frame.side_a.xyz), dot(swing.offset, frame.side_b.xyz));
-            along = dot(instance.offset.xyz + swing.offset, frame.radial.xyz);
+            result.position = instance.position + swing.offset;
+            let beside = vec2<f32>(instance.across_a, instance.across_b) + vec2<f32>(dot(swing.offset, frame.side_a), dot(swing.offset, frame.side_b));
+            along = dot(instance.offset + swing.offset, frame.outward);
             across = length(beside);
-            height = dot(result.position, frame.radial.xyz);
+            height = dot(result.position, frame.outward);
             side = side_towards(beside);
             result.by_axis = vec3<f32>(beside, along);
         }
         // A moving point is seen by light of one age. A held point may be seen by light of two ages: its instance says which is meant.
-        let elapsed = select(select(YOUNG, OLD, (instance.triangles.w & INSTANCE_MINUS) != 0u), instance.offset.w - s, moves);
+        let elapsed = select(select(YOUNG, OLD, (instance.flags & INSTANCE_MINUS) != 0u), instance.delay - s, moves);
         result.ray = sight(along, across, height, side, order, elapsed);
         if query.fixed || !moves {
             break;
@@ -152,7 +152,7 @@ fn answer(instance: Instance, query: Query, order: u32) -> Answer {
         if !result.ray.valid && i < steps {
             // Not in the camera's past any more: try earlier. Light crosses the object in about its size.
             late = s;
-            back = min(select(2.0 * back, 2.0 * distance(result.position, instance.position.xyz), back == 0.0), FARTHEST_BACK);
+            back = min(select(2.0 * back, 2.0 * distance(result.position, instance.position), back == 0.0), FARTHEST_BACK);
             s = select(s - back, 0.5 * (early + s), early > -NEVER);
             // The last step is at a time that has a ray.
             s = select(s, early, i + 1u == steps && early > -NEVER);
@@ -163,7 +163,7 @@ fn answer(instance: Instance, query: Query, order: u32) -> Answer {
         // The search ends when the image moves by less than a fiftieth of a pixel in the missing time. Round the axis it moves as the
         // azimuth turns.
         let seen_from = min(result.ray.delay, across);
-        if i > 0u && abs(missing) * speed < max(0.02 * frame.size.z * finest * seen_from, instance.axis.z) {
+        if i > 0u && abs(missing) * speed < max(0.02 * frame.pixel * finest * seen_from, instance.rounding) {
             break;
         }
         // dΔ/dT along the worldline: the gradient of the light path at the point is minus the photon's momentum over its energy.
@@ -171,7 +171,7 @@ fn answer(instance: Instance, query: Query, order: u32) -> Answer {
         let step = missing * clamp(energy / (energy - dot(velocity, result.ray.leaving.xyz)), -20.0, 20.0);
         if i == steps {
             // A point whose emission time was not found is not drawn: it would be seen where it never was.
-            result.ray.valid = result.ray.valid && abs(step) * speed < 4.0 * frame.size.z * result.ray.delay;
+            result.ray.valid = result.ray.valid && abs(step) * speed < 4.0 * frame.pixel * result.ray.delay;
             break;
         }
         early = select(early, s, step > 0.0);

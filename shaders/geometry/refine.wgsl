@@ -20,28 +20,28 @@
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let queue = counters.turn;
     let index = group.x * 64u + lane;
-    if index >= min(atomicLoad(&counters.pieces[queue]), frame.capacity.z) {
+    if index >= min(atomicLoad(&counters.pieces[queue]), frame.capacity.work) {
         return;
     }
-    let piece = pieces[queue * frame.capacity.z + index];
+    let piece = pieces[queue * frame.capacity.work + index];
     let instance = instance_at(piece.what.x);
     let triangle = model_triangle(piece.what.y);
     strict = strictness(instance);
     limb_strict = limb_strictness(instance);
     measure(piece, instance, triangle);
     for (var k = 0u; k < 3u; k++) {
-        let state = states[instance.ids.w + triangle.edges[k]];
+        let state = states[instance.first_state + triangle.edges[k]];
         model_levels[k] = bitcast<u32>(state.x);
         limb[k] = (bitcast<u32>(state.y) & EDGE_LIMB) != 0u;
     }
-    if unseen && (frame.switches.x & FLAG_INSIDE) != 0u {
+    if unseen && (frame.flags & FLAG_INSIDE) != 0u {
         // The image ends somewhere in this piece: what is seen of its corners is drawn as it is.
         emit_work(piece, vec4<u32>(1u), 1u, 1u);
     } else if piece.what.z == PIECE_FAN {
         refine_fan(piece, instance);
     } else {
         // Beside the axis light of one triangle leaves in all directions of a cone, and a part of the triangle may be turned away.
-        let away = turned_away(instance, triangle, instance.offset.xyz, leaving[0], leaving[1], leaving[2]);
+        let away = turned_away(instance, triangle, instance.offset, leaving[0], leaving[1], leaving[2]);
         if !away { refine_triangle(piece, instance); }
     }
     hand_over(1u - queue);
@@ -93,7 +93,7 @@ fn side_of(piece: Piece, side: u32, instance: Instance) -> Side {
     let nearest = min(length(by_axis[i].xy), length(by_axis[j].xy));
     result.error = side_error(side, slack_of(instance, tangents[side], nearest, by_axis[i].z));
     let fineness = pixel_fineness(points[i], points[j]);
-    let pixel = frame.size.z / fineness * length(points[i]);
+    let pixel = frame.pixel / fineness * length(points[i]);
     let closer = ring_strictness(instance, nearest, pixel, by_axis[i].z);
     // If light grazes a triangle, its image may fold inside it.
     let least = LIMB_SINE + turning_slack(instance);
@@ -104,7 +104,7 @@ fn side_of(piece: Piece, side: u32, instance: Instance) -> Side {
     let k = 4u + 3u * side;
     let swapped = i != (side + 1u) % 3u;
     let first = select(k - 1u, k + 1u, swapped);
-    result.turn = turn_along(by_axis[i], by_axis[first], by_axis[k], by_axis[2u * k - first], by_axis[j], instance.ids.x);
+    result.turn = turn_along(by_axis[i], by_axis[first], by_axis[k], by_axis[2u * k - first], by_axis[j], instance.order);
     let sag = uneven_sag(by_axis[i], by_axis[j], result.level, result.turn, angle_between(points[i], points[j]));
     if result.turn > most_turn(instance) || level_for(sag * fineness * strict * closer, 1.0) > 1u {
         result.error = MUST_SPLIT;
@@ -135,7 +135,7 @@ fn measure(piece: Piece, instance: Instance, triangle: ModelTriangle) {
     let corners = array<vec3<f32>, 3>(piece.corner_a.xyz, piece.corner_b.xyz, piece.corner_c.xyz);
     let fan = piece.what.z == PIECE_FAN;
     let count = select(12u, 17u, fan);
-    let normal = plane_normal(instance, triangle, instance.offset.xyz);
+    let normal = plane_normal(instance, triangle, instance.offset);
     for (var k = 0u; k < count; k++) {
         var corner = corners[min(k, 2u)];
         if k >= 3u && k < 12u {
@@ -153,7 +153,7 @@ fn measure(piece: Piece, instance: Instance, triangle: ModelTriangle) {
                 query = query_fan(apex, by_axis[3u + k - 14u], 0.0);
             }
         }
-        let found = answer(instance, query, instance.ids.x);
+        let found = answer(instance, query, instance.order);
         points[k] = found.ray.apparent;
         unseen = unseen || !found.ray.valid;
         if k < 3u {
@@ -189,7 +189,7 @@ fn emit_leaf(piece: Piece, levels: vec3<u32>, instance: Instance) {
     let turn = select(select(2u, 1u, levels.y == most), 0u, levels.x == most);
     let turned = vec3<u32>(levels[turn], levels[(turn + 1u) % 3u], levels[(turn + 2u) % 3u]);
     let columns = max(turned.x, turned.y + turned.z);
-    if most < 4u || columns > most + 2u || is_thin(instance) || !is_narrow(turn, turned, instance.ids.x) {
+    if most < 4u || columns > most + 2u || is_thin(instance) || !is_narrow(turn, turned, instance.order) {
         emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
         return;
     }
@@ -213,7 +213,7 @@ const STRIP_SHEAR: f32 = 0.1;
 /// compared as a strip joins them. `levels` begin with that of the side opposite that corner.
 fn is_narrow(turn: u32, levels: vec3<u32>, order: u32) -> bool {
     let columns = f32(levels.y + levels.z);
-    let pixel = frame.size.z / pixel_fineness(points[0], points[1]);
+    let pixel = frame.pixel / pixel_fineness(points[0], points[1]);
     var widest = 0.0;
     var shear = 0.0;
     for (var k = 1u; k < 4u; k++) {
@@ -274,7 +274,7 @@ fn met(piece: Piece, order: u32) -> vec3<f32> {
 /// At the deepest splitting a piece may still turn too much about the axis, where rounding decides on azimuths. Its chords would run across
 /// the ring, so it is left out. This is whether that may be seen. `farthest` is the largest distance of its corners from the axis, in r_s.
 fn reaches_out(farthest: f32) -> bool {
-    return farthest > AXIS_SHARE * frame.size.z / pixel_fineness(points[1], points[2]) * length(points[1]);
+    return farthest > AXIS_SHARE * frame.pixel / pixel_fineness(points[1], points[2]) * length(points[1]);
 }
 
 /// Whether a measured triangle is a sliver along a side that needs no splitting. It would be split for its other two sides for ever: they
@@ -295,7 +295,7 @@ fn refine_triangle(piece: Piece, instance: Instance) {
         return;
     }
     // A moving triangle is not flat when it is seen: the axis may meet a part of it although it passes by the corners.
-    let at = met(piece, instance.ids.x);
+    let at = met(piece, instance.order);
     if at.x >= 0.0 {
         if depth >= DEEPEST {
             atomicAdd(&counters.coarse, 1u);

@@ -54,11 +54,11 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
 
 /// In pixels from the upper left corner.
 fn place(clip: vec4<f32>) -> vec2<f32> {
-    return (clip.xy / clip.w * vec2<f32>(0.5, -0.5) + 0.5) * frame.size.xy;
+    return (clip.xy / clip.w * vec2<f32>(0.5, -0.5) + 0.5) * frame.size;
 }
 
 fn list(crossings: u32, first: u32) {
-    let slot = crossings * frame.capacity.w + atomicAdd(&draws.across[crossings].indices, 3u);
+    let slot = crossings * frame.capacity.thin + atomicAdd(&draws.across[crossings].indices, 3u);
     lists[slot] = first;
     lists[slot + 1u] = first + 1u;
     lists[slot + 2u] = first + 2u;

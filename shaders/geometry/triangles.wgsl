@@ -20,7 +20,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     if chunk.instance == NO_INSTANCE {
         return;
     }
-    if chunk.first + lane < instance_at(chunk.instance).triangles.y {
+    if chunk.first + lane < instance_at(chunk.instance).triangle_count {
         decide(chunk, lane);
         hand_over(0u);
     }
@@ -28,9 +28,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
 
 fn decide(chunk: Chunk, lane: u32) {
     let instance = instance_at(chunk.instance);
-    let number = instance.triangles.x + chunk.first + lane;
+    let number = instance.first_triangle + chunk.first + lane;
     let triangle = model_triangle(number);
-    let base = instance.ids.z;
+    let base = instance.first_seen;
     let slots = vec3<u32>(base) + triangle.vertices.xyz;
     let o0 = states[slots.x];
     let o1 = states[slots.y];
@@ -48,9 +48,9 @@ fn decide(chunk: Chunk, lane: u32) {
         leaving_of(instance, slots.z)) {
         return;
     }
-    let e0 = states[instance.ids.w + triangle.edges.x];
-    let e1 = states[instance.ids.w + triangle.edges.y];
-    let e2 = states[instance.ids.w + triangle.edges.z];
+    let e0 = states[instance.first_state + triangle.edges.x];
+    let e1 = states[instance.first_state + triangle.edges.y];
+    let e2 = states[instance.first_state + triangle.edges.z];
     let corner_a = vec3<f32>(1.0, 0.0, 0.0);
     let corner_b = vec3<f32>(0.0, 1.0, 0.0);
     let corner_c = vec3<f32>(0.0, 0.0, 1.0);
@@ -123,7 +123,7 @@ fn cut_at_axis(instance: Instance, corners: array<vec4<f32>, 3>, edges: array<ve
     if is_lost(instance, corners[0].xyz, corners[1].xyz, corners[2].xyz) {
         return Cut(vec3<f32>(0.0), vec3<bool>(false), true);
     }
-    let at = meets_axis(corners[0].xyz, corners[1].xyz, corners[2].xyz, instance.ids.x);
+    let at = meets_axis(corners[0].xyz, corners[1].xyz, corners[2].xyz, instance.order);
     return Cut(at, vec3<bool>(at.x >= 0.0), false);
 }
 
@@ -146,7 +146,7 @@ fn area_ratio(slots: vec3<u32>, o0: vec3<f32>, o1: vec3<f32>, o2: vec3<f32>) -> 
 
 /// In square pixels; −1 if a corner is behind the camera.
 fn area_on_screen(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> f32 {
-    let near = frame.projection.z;
+    let near = frame.near;
     if -a.z < near || -b.z < near || -c.z < near {
         return -1.0;
     }
@@ -158,8 +158,8 @@ fn area_on_screen(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> f32 {
 
 /// Where straight light from an offset would be seen, by a static observer's directions boosted to the rain and to the camera.
 fn seen_straight(offset: vec3<f32>) -> vec3<f32> {
-    let n = frame.radial.xyz;
-    let beta = frame.side_b.w;
+    let n = frame.outward;
+    let beta = frame.river_speed;
     let gamma = inverseSqrt(max(1.0 - beta * beta, 1e-6));
     let distance = length(offset);
     let along = dot(offset, n);

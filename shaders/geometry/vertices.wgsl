@@ -17,12 +17,12 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     }
     let instance = instance_at(chunk.instance);
     let local = chunk.first + lane;
-    if local >= instance.vertices.y {
+    if local >= instance.vertex_count {
         return;
     }
-    let vertex = model_vertex(instance.vertices.x + local);
-    let order = instance.ids.x;
-    let slot = instance.ids.z + local;
+    let vertex = model_vertex(instance.first_vertex + local);
+    let order = instance.order;
+    let slot = instance.first_seen + local;
     let found = answer(instance, query_body(vertex.position.xyz), order);
     let on_axis = length(found.by_axis.xy) < axis_core(instance, found.ray.apparent) && axis_matters(found.by_axis.z, order);
     let ray = found.ray;
@@ -31,6 +31,6 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         atomicAdd(&counters.caught, 1u);
     }
     seen[slot] = seen_vertex(instance, chunk.instance, found, found.attitude, vertex.normal.xyz,
-        vec2<f32>(vertex.position.w, vertex.normal.w), vertex.info.x + instance.triangles.z);
+        vec2<f32>(vertex.position.w, vertex.normal.w), vertex.info.x + instance.first_material);
     states[slot] = vec4<f32>(found.by_axis, select(VERTEX_UNSEEN, select(VERTEX_PLAIN, VERTEX_ON_AXIS, on_axis), ok));
 }

@@ -11,40 +11,80 @@ struct Frame {
     camera_from_rain: mat4x4<f32>,
     /// Its inverse.
     rain_from_camera: mat4x4<f32>,
-    /// Unit vector from the hole to the camera (rain axes); w: the camera's radius L.
-    radial: vec4<f32>,
-    /// Two unit vectors that complete `radial` to a right-handed frame; w of the first: least width of a thin image in pixels, of the
-    /// second: the river's speed β = √(1/L).
-    side_a: vec4<f32>,
-    side_b: vec4<f32>,
-    /// x, y: cotangents of half the field of view across and down; z: near distance in r_s; w: time T since the start, for what twinkles.
-    projection: vec4<f32>,
-    /// x, y: size of the target in pixels; z: angle of one pixel in radians at the centre; w: error budget in radians.
-    size: vec4<f32>,
-    /// x: exposure bias (stops, as a factor), y: star brightness, z: sky brightness, w: bloom strength.
-    light: vec4<f32>,
-    /// x: least exposure, y: greatest exposure, z: adaptation factor of this frame in (0, 1], w: ψ of the edge of the shadow, rain frame.
-    exposure: vec4<f32>,
-    /// x: bits of FLAG_*; y: how often an edge may be halved; z: unused; w: number of image orders drawn.
-    switches: vec4<u32>,
-    /// Rotation from rain axes to the axes of the sky (ICRS), columns. w: the light that the picture is brought to, with the disk if there
-    /// is one; standard deviation of a star's spot in pixels; least flux of a star.
-    sky_x: vec4<f32>,
-    sky_y: vec4<f32>,
-    sky_z: vec4<f32>,
-    /// Capacities: x vertices, y indices, z work items, w thin vertices. Of each but the last a fifth is kept for what is drawn coarsely
-    /// when the rest is full.
-    capacity: vec4<u32>,
-    /// x, y: least and greatest light of middle grey on the own ship; z: exposure of the frame before, w: 1 once that is known.
-    fill: vec4<f32>,
-    /// What the meter leaves out, the own ship's circle: x, y: its middle, in widths of the picture from its middle, y down; z: its radius,
-    /// 0 for none. w: the light that the picture is brought to while no disk is in it.
-    unmetered: vec4<f32>,
+    /// Unit vector from the hole to the camera (rain axes).
+    outward: vec3<f32>,
+    /// The camera's radius L.
+    camera_radius: f32,
+    /// Two unit vectors that complete `outward` to a right-handed frame.
+    side_a: vec3<f32>,
+    /// Least width of a thin image, in pixels.
+    least_width: f32,
+    side_b: vec3<f32>,
+    /// The river's speed β = √(1/L), in c.
+    river_speed: f32,
+    /// Cotangents of half the field of view across and down.
+    focal: vec2<f32>,
+    /// Distance of the near plane, in r_s.
+    near: f32,
+    /// T since the start, for what twinkles, in r_s/c.
+    time: f32,
+    /// Of the target, in pixels.
+    size: vec2<f32>,
+    /// Angle of one pixel at the centre, in rad.
+    pixel: f32,
+    /// The error that geometry may have on the screen, in rad.
+    error_budget: f32,
+    /// Factor on the exposure.
+    exposure_bias: f32,
+    star_brightness: f32,
+    sky_brightness: f32,
+    /// Share of the light that is spread.
+    bloom: f32,
+    least_exposure: f32,
+    greatest_exposure: f32,
+    /// The share of the way that the exposure goes in this frame, in (0, 1].
+    adaptation: f32,
+    /// ψ of the edge of the shadow, rain frame, in rad.
+    shadow_edge: f32,
+    /// Bits of FLAG_*.
+    flags: u32,
+    /// How often an edge may be halved.
+    halvings: u32,
+    /// Standard deviation of a star's spot, in pixels.
+    star_sigma: f32,
+    /// Least flux of a star that is drawn, in units of a star of magnitude 0.
+    faintest_star: f32,
+    capacity: Capacity,
+    /// Least and greatest light of middle grey on the own ship.
+    least_fill: f32,
+    greatest_fill: f32,
+    /// Exposure of the frame before; and 1 once that is known.
+    last_exposure: f32,
+    exposure_known: f32,
+    /// What the meter leaves out, the own ship's circle: its middle, in widths of the picture from its middle, y down.
+    unmetered_middle: vec2<f32>,
+    /// Its radius, 0 for none.
+    unmetered_radius: f32,
+    /// The light that the picture is brought to where the disk is in it.
+    exposure_key: f32,
     /// Indices of the disk's triangles in the picture, as DiskCounters has them; some number if it is not drawn from arcs.
-    disk: vec4<u32>,
-    /// How far the mean luminance of the picture as shown may rise, where it is bound: x: by how much of white in this frame, y: 1 over
-    /// that of the frame before, 0 over black.
-    rise: vec4<f32>,
+    disk_indices: vec4<u32>,
+    /// The light that the picture is brought to while no disk is in it.
+    exposure_key_without_disk: f32,
+    /// How far the mean luminance of the picture as shown may rise, where it is bound: by how much of white in this frame,
+    most_rise: f32,
+    /// and 1 over that of the frame before, 0 over black.
+    rise_per_luminance: f32,
+    unused: f32,
+}
+
+/// What the buffers of geometry hold. Of each but the last a fifth is kept for what is drawn coarsely when the rest is full.
+struct Capacity {
+    vertices: u32,
+    indices: u32,
+    work: u32,
+    /// Vertices of thin images.
+    thin: u32,
 }
 
 const FLAG_DOPPLER: u32 = 1u;
@@ -53,57 +93,99 @@ const FLAG_INSIDE: u32 = 16u;
 const FLAG_HOLD_EXPOSURE: u32 = 32u;
 const FLAG_MIDPOINT: u32 = 64u;
 
-/// One object seen in one image order.
+/// One object seen in one image order. A row of 16 bytes holds a vector and a number.
 struct Instance {
-    /// The object's centre at its own emission time T₀, minus the camera's position; w: T − T₀.
-    offset: vec4<f32>,
-    /// x, y: where the centre is across the axis of hole and camera, along `side_a` and `side_b`: near the axis the offset has lost the
-    /// digits that it takes. z: how far a point may be put beside its place by the rounding of f32; all in r_s. w: how much closer chords
-    /// of a slim image are held, else 1.
-    axis: vec4<f32>,
+    /// The object's centre at its own emission time T₀, minus the camera's position, in r_s.
+    offset: vec3<f32>,
+    /// T − T₀, in r_s/c.
+    delay: f32,
     /// The centre from the hole: near the hole a far camera's offset has lost the digits that r − 1 needs.
-    /// w: what its engines lack of their full light, as a share.
-    position: vec4<f32>,
-    /// dx/dT of the centre; w: r_s per unit of the model where the object moves or turns, else 0.
-    velocity: vec4<f32>,
-    /// Rain-frame momentum per mass; w: γ.
-    momentum: vec4<f32>,
-    /// Columns of the matrix from body offsets to offsets on the slice at T₀: size, attitude, contraction. w: d²x/dT² of the centre.
-    shape_x: vec4<f32>,
-    shape_y: vec4<f32>,
-    shape_z: vec4<f32>,
-    /// Mean angular velocity about T₀ in 1/T, rain axes; w: by how much the direction of light against a surface, as a sine, may be off
-    /// what this turn tells.
-    spin: vec4<f32>,
-    /// What was recorded of the flight (instances/recorded.wgsl). x: time of the first node after T₀; y: 1 over the time between two;
-    /// z: number of times between them; w: texel of the first in the table (bits of a u32).
-    nodes: vec4<f32>,
-    /// The momentum p that contracts the body on the slice, at T₀; w unused.
-    drift: vec4<f32>,
-    /// dp/dT; w: 1 if the centre strays from its smooth way, as the nodes tell, else 0.
-    force: vec4<f32>,
-    /// Columns of the rotation from body axes to rain axes, for normals; w: d³x/dT³ of the centre.
-    turn_x: vec4<f32>,
-    turn_y: vec4<f32>,
-    turn_z: vec4<f32>,
-    /// d⁴x/dT⁴ of the centre; w: how often light of this image crosses the plane z = 0 of the disk on its way, −1 if parts of it differ.
-    snap: vec4<f32>,
-    /// Light that falls on a surface of normal n (rain axes): ambient + direction·n, per channel.
+    position: vec3<f32>,
+    /// What its engines lack of their full light, as a share.
+    engines_off: f32,
+    /// dx/dT of the centre.
+    velocity: vec3<f32>,
+    /// r_s per unit of the model where the object moves or turns, else 0.
+    scale: f32,
+    /// d²x/dT² of the centre.
+    acceleration: vec3<f32>,
+    /// Where the centre is across the axis of hole and camera, along `side_a` and `side_b`, in r_s: near the axis the offset has lost the
+    /// digits that it takes.
+    across_a: f32,
+    /// d³x/dT³ of the centre.
+    jerk: vec3<f32>,
+    across_b: f32,
+    /// d⁴x/dT⁴ of the centre.
+    snap: vec3<f32>,
+    /// How often light of this image crosses the plane z = 0 of the disk on its way, −1 if parts of it differ.
+    crossings: f32,
+    /// Rain-frame momentum per mass, by which light is shifted.
+    momentum: vec3<f32>,
+    gamma: f32,
+    /// The momentum that contracts the body on the slice, at T₀.
+    contraction: vec3<f32>,
+    /// How far a point may be put beside its place by the rounding of f32, in r_s.
+    rounding: f32,
+    /// d/dT of it.
+    force: vec3<f32>,
+    /// 1 if the centre strays from its smooth way, as the nodes tell, else 0.
+    strays: f32,
+    /// Mean angular velocity about T₀ in 1/T, rain axes.
+    spin: vec3<f32>,
+    /// By how much the direction of light against a surface, as a sine, may be off what this turn tells.
+    spin_slack: f32,
+    /// Columns of the matrix from body offsets to offsets on the slice at T₀: size, attitude, contraction.
+    shape_x: vec3<f32>,
+    /// How much closer chords of a slim image are held, else 1.
+    strictness: f32,
+    shape_y: vec3<f32>,
+    /// What was recorded of the flight (instances/recorded.wgsl): time of the first node after T₀, in r_s/c.
+    first_node: f32,
+    shape_z: vec3<f32>,
+    /// 1 over the time between two nodes.
+    nodes_per_time: f32,
+    /// Columns of the rotation from body axes to rain axes, for normals.
+    turn_x: vec3<f32>,
+    /// Number of times between nodes.
+    node_intervals: f32,
+    turn_y: vec3<f32>,
+    /// Where the first node is in the table of instances.
+    node_texel: u32,
+    turn_z: vec3<f32>,
+    unused: f32,
+    /// Light that falls on a surface of normal n (rain axes), per channel: the linear form of (n, 1), whose last coefficient is ambient.
     light_red: vec4<f32>,
     light_green: vec4<f32>,
     light_blue: vec4<f32>,
-    /// Caps of directions, camera axes, that the image keeps to: by its farthest from outwards, its nearest, and about its middle. xyz: the
-    /// cap's middle; w: the square of the chord from there to its rim, positive if the image lies inside, negative if outside, 0 if it may
-    /// lie anywhere.
-    bound_high: vec4<f32>,
-    bound_low: vec4<f32>,
-    bound_look: vec4<f32>,
-    /// x: image order, y: object id, z: first out vertex, w: first edge state.
-    ids: vec4<u32>,
-    /// x: first model vertex, y: vertex count, z: first model edge, w: edge count.
-    vertices: vec4<u32>,
-    /// x: first model triangle, y: triangle count, z: first material, w: INSTANCE_*.
-    triangles: vec4<u32>,
+    /// Caps of directions that the image keeps to: by its farthest from outwards, its nearest, and about its middle.
+    bound_high: Cap,
+    bound_low: Cap,
+    bound_look: Cap,
+    /// The image order.
+    order: u32,
+    /// The object's id.
+    object: u32,
+    /// First of its seen vertices and of its edges' states.
+    first_seen: u32,
+    first_state: u32,
+    /// Of the model: where its vertices, edges, triangles and materials begin, and how many there are.
+    first_vertex: u32,
+    vertex_count: u32,
+    first_edge: u32,
+    edge_count: u32,
+    first_triangle: u32,
+    triangle_count: u32,
+    first_material: u32,
+    /// Bits of INSTANCE_*.
+    flags: u32,
+}
+
+/// Directions within some angle of one.
+struct Cap {
+    /// Unit vector, camera axes.
+    middle: vec3<f32>,
+    /// Square of the chord from there to the rim; positive if the image lies inside, negative if outside, 0 if it may lie anywhere.
+    rim: f32,
 }
 
 /// Both sides of every triangle are drawn.
@@ -121,11 +203,11 @@ const INSTANCE_OWN: u32 = 32u;
 const INSTANCE_NARROW: u32 = 16u;
 
 fn is_thin(instance: Instance) -> bool {
-    return (instance.triangles.w & INSTANCE_THIN) != 0u;
+    return (instance.flags & INSTANCE_THIN) != 0u;
 }
 
 fn two_sided(instance: Instance) -> bool {
-    return (instance.triangles.w & INSTANCE_TWO_SIDED) != 0u;
+    return (instance.flags & INSTANCE_TWO_SIDED) != 0u;
 }
 
 struct ModelVertex {

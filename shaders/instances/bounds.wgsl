@@ -3,12 +3,12 @@
 // The guard: no triangle of an object is drawn outside of where the image of its ball can be, whatever went wrong before.
 
 #import lensrunner::geometry::bindings::{counters, seen}
-#import lensrunner::gpu::types::Instance
+#import lensrunner::gpu::types::{Cap, Instance}
 
 /// Whether a triangle of three seen vertices leaves one of the instance's caps, or enters one that it must keep out of. If so it is
 /// counted.
 fn leaves_bounds(instance: Instance, i0: u32, i1: u32, i2: u32) -> bool {
-    if instance.bound_high.w == 0.0 && instance.bound_low.w == 0.0 && instance.bound_look.w == 0.0 {
+    if instance.bound_high.rim == 0.0 && instance.bound_low.rim == 0.0 && instance.bound_look.rim == 0.0 {
         return false;
     }
     let a = normalize(seen[i0].apparent.xyz);
@@ -24,14 +24,14 @@ fn leaves_bounds(instance: Instance, i0: u32, i1: u32, i2: u32) -> bool {
 
 /// The same for one cap, as `Bounds` of Rust. A cap is convex: a triangle whose corners are in it is in it. To be outside of a cap the
 /// nearest point of the triangle must be outside.
-fn leaves_cap(cap: vec4<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
-    if cap.w == 0.0 {
+fn leaves_cap(cap: Cap, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
+    if cap.rim == 0.0 {
         return false;
     }
-    let middle = cap.xyz;
+    let middle = cap.middle;
     let chords = vec3<f32>(square(a - middle), square(b - middle), square(c - middle));
-    if cap.w > 0.0 {
-        return max(chords.x, max(chords.y, chords.z)) > cap.w;
+    if cap.rim > 0.0 {
+        return max(chords.x, max(chords.y, chords.z)) > cap.rim;
     }
     let corners = min(chords.x, min(chords.y, chords.z));
     let sides = min(nearest_on_side(middle, a, b), min(nearest_on_side(middle, b, c), nearest_on_side(middle, c, a)));
@@ -39,7 +39,7 @@ fn leaves_cap(cap: vec4<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool 
     let turns = middle * normals;
     let least = UNSURE * vec3<f32>(length(normals[0]), length(normals[1]), length(normals[2]));
     let round = (all(turns > least) || all(turns < -least)) && dot(a + b + c, middle) > 0.0;
-    return round || min(corners, sides) < -cap.w;
+    return round || min(corners, sides) < -cap.rim;
 }
 
 /// A direction nearer to a great circle than this, in radians, may by rounding be on either side: f32 has 1e-7, and no cap is that small.

@@ -11,18 +11,18 @@ const FARTHEST_TURN: f32 = 2.0;
 
 /// The body point `s` after the emission time T₀ of the centre.
 fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> Swing {
-    let scale = instance.velocity.w;
+    let scale = instance.scale;
     if scale == 0.0 {
         return Swing(shaped(instance, body), vec3<f32>(0.0), vec4<f32>(0.0));
     }
-    let turn = instance.spin.xyz * s;
+    let turn = instance.spin * s;
     let turned = turn * (FARTHEST_TURN / max(length(turn), FARTHEST_TURN));
     let q = dot(turned, turned);
     let straight = normal_of(instance, body) * scale;
     // Rodrigues: sin θ / θ and (1 − cos θ) / θ² as polynomials in θ².
     let once = cross(turned, straight);
     let rest = straight + once * (1.0 - q * (1.0 / 6.0 - q / 120.0)) + cross(turned, once) * (0.5 - q * (1.0 / 24.0 - q / 720.0));
-    return carried(instance, rest, cross(instance.spin.xyz, rest), s, vec3<f32>(0.0));
+    return carried(instance, rest, cross(instance.spin, rest), s, vec3<f32>(0.0));
 }
 
 /// First guess of the emission time of a point, after T₀: nearly that of the centre.

@@ -20,8 +20,8 @@ struct NodePlace {
 }
 
 fn node_place(instance: Instance, s: f32) -> NodePlace {
-    let last = instance.nodes.z;
-    let at = (s - instance.nodes.x) * instance.nodes.y;
+    let last = instance.node_intervals;
+    let at = (s - instance.first_node) * instance.nodes_per_time;
     let x = clamp(at, 0.0, last);
     let index = min(floor(x), last - 1.0);
     return NodePlace(u32(index), x - index, select(0.0, 1.0, at == x));
@@ -34,11 +34,11 @@ fn swing_between(instance: Instance, body: vec3<f32>, s: f32, place: NodePlace, 
     let mean = mix(turns[0], turns[1], place.share);
     let length_squared = dot(mean, mean);
     let q = mean * inverseSqrt(length_squared);
-    let rest = turned_by(q, body * instance.velocity.w);
+    let rest = turned_by(q, body * instance.scale);
     // Twice the vector part of q' q*, q' being the rate of the quaternion.
     let change = turns[1] - turns[0];
     let rate = 2.0 * (change.xyz * mean.w - mean.xyz * change.w - cross(change.xyz, mean.xyz)) / length_squared;
-    let per_time = instance.nodes.y * place.inside;
+    let per_time = instance.nodes_per_time * place.inside;
     var swing = carried(instance, rest, cross(rate, rest) * per_time, s, mix(pushes[0], pushes[1], place.share));
     swing.offset += mix(asides[0], asides[1], place.share);
     swing.velocity += (asides[1] - asides[0]) * per_time;
@@ -48,16 +48,16 @@ fn swing_between(instance: Instance, body: vec3<f32>, s: f32, place: NodePlace, 
 
 /// The body point `s` after the emission time T₀ of the centre.
 fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> Swing {
-    if instance.velocity.w == 0.0 {
+    if instance.scale == 0.0 {
         return Swing(shaped(instance, body), vec3<f32>(0.0), vec4<f32>(0.0));
     }
     let place = node_place(instance, s);
-    let first = bitcast<u32>(instance.nodes.w) + NODE_TEXELS * place.index;
+    let first = instance.node_texel + NODE_TEXELS * place.index;
     let turns = mat2x4<f32>(instance_row(first), instance_row(first + NODE_TEXELS));
     var asides = mat2x3<f32>();
     var pushes = mat2x3<f32>();
     // Most bodies keep to the smooth way.
-    if instance.force.w != 0.0 {
+    if instance.strays != 0.0 {
         asides = mat2x3<f32>(instance_row(first + 1u).xyz, instance_row(first + NODE_TEXELS + 1u).xyz);
         pushes = mat2x3<f32>(instance_row(first + 2u).xyz, instance_row(first + NODE_TEXELS + 2u).xyz);
     }
@@ -71,12 +71,12 @@ fn first_guess(instance: Instance, body: vec3<f32>) -> f32 {
 
 /// A direction in which light leaves the body (rest frame, rain axes), turned back to the attitude at T₀; `delay` is the light's path.
 fn before_turning(instance: Instance, leaving: vec3<f32>, delay: f32) -> vec3<f32> {
-    return leaving - cross(instance.spin.xyz * (instance.offset.w - delay), leaving);
+    return leaving - cross(instance.spin * (instance.delay - delay), leaving);
 }
 
 /// By how much the sine of light against a surface may be off what `before_turning` tells: for uneven turns, and for the surface's own speed.
 fn turning_slack(instance: Instance) -> f32 {
-    return instance.spin.w;
+    return instance.spin_slack;
 }
 
 /// Whether an edge inside the surface may be an outline of its image.

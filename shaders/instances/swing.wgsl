@@ -17,11 +17,9 @@ struct Swing {
 /// The point that lies at `rest` (r_s, rain axes, rest frame) from the centre, `s` after T₀, and moves with `turning` (c) round it: contracted
 /// by the momentum of that moment, which is `pushed` beside one that grows evenly, and carried along with the centre to fourth order.
 fn carried(instance: Instance, rest: vec3<f32>, turning: vec3<f32>, s: f32, pushed: vec3<f32>) -> Swing {
-    let acceleration = vec3<f32>(instance.shape_x.w, instance.shape_y.w, instance.shape_z.w);
-    let jerk = vec3<f32>(instance.turn_x.w, instance.turn_y.w, instance.turn_z.w);
-    let way = (instance.velocity.xyz + (acceleration + (jerk + instance.snap.xyz * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s;
-    let velocity = instance.velocity.xyz + (acceleration + (jerk + instance.snap.xyz * (s / 3.0)) * (0.5 * s)) * s;
-    let p = instance.drift.xyz + instance.force.xyz * s + pushed;
+    let way = (instance.velocity + (instance.acceleration + (instance.jerk + instance.snap * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s;
+    let velocity = instance.velocity + (instance.acceleration + (instance.jerk + instance.snap * (s / 3.0)) * (0.5 * s)) * s;
+    let p = instance.contraction + instance.force * s + pushed;
     let gamma = sqrt(1.0 + dot(p, p));
     let shorter = 1.0 / (gamma * (1.0 + gamma));
     return Swing(way + rest - p * (dot(p, rest) * shorter), velocity + turning - p * (dot(p, turning) * shorter), vec4<f32>(0.0));

@@ -14,6 +14,6 @@ fn method_ray(along: f32, across: f32, height: f32, order: u32, elapsed: f32) ->
     let inverse = 1.0 / max(distance, 1e-20);
     // Cosine of the angle at the point between the outward radial and the line of sight away from the camera.
     let outward = (along * height + across * across) * inverse / max(r, 1e-20);
-    let sweeping = frame.radial.w * across * inverse / max(r, 1e-20);
+    let sweeping = frame.camera_radius * across * inverse / max(r, 1e-20);
     return LensRay(along * inverse, across * inverse, distance, 1.0, -outward, sweeping, 1.0, 0.0, 0.0, 1.0, order == 1u && distance > 0.0);
 }

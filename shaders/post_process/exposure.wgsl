@@ -18,9 +18,9 @@ var<workgroup> sums: array<vec4<f32>, 64>;
 /// Weight of a texel: 0 on the player's own ship, since the ship is lit for the exposure and not the exposure chosen for the ship. The
 /// circle's edge is soft, so that nothing jumps as it moves.
 fn metered_part(texel: vec2<f32>, size: vec2<f32>) -> f32 {
-    let radius = max(frame.unmetered.z, 1e-6);
+    let radius = max(frame.unmetered_radius, 1e-6);
     let place = (texel + 0.5 - 0.5 * size) / size.x;
-    return select(smoothstep(radius, 1.25 * radius, distance(place, frame.unmetered.xy)), 1.0, frame.unmetered.z <= 0.0);
+    return select(smoothstep(radius, 1.25 * radius, distance(place, frame.unmetered_middle)), 1.0, frame.unmetered_radius <= 0.0);
 }
 
 /// Sums of squared light and of light over the texels of a level that a lane has.
@@ -51,11 +51,11 @@ fn main(@builtin(local_invocation_index) lane: u32) {
         let each = log(max(total.xz / max(total.yw, vec2<f32>(1e-9)), vec2<f32>(1e-9)));
         let metered = exp(mix(each.x, each.y, octaves));
         // Stars alone, brought to the light of a disk, would be a field of snow.
-        let key = select(frame.unmetered.w, frame.sky_x.w, any(frame.disk != vec4<u32>(0u)));
-        let wanted = clamp(key / metered, frame.exposure.x, frame.exposure.y);
+        let key = select(frame.exposure_key_without_disk, frame.exposure_key, any(frame.disk_indices != vec4<u32>(0u)));
+        let wanted = clamp(key / metered, frame.least_exposure, frame.greatest_exposure);
         // In stops, like the eye; the first frame begins at the target.
-        let nearer = exp(mix(log(max(adaptation.x, 1e-12)), log(wanted), select(frame.exposure.z, 1.0, adaptation.z == 0.0)));
-        let exposure = select(nearer, adaptation.x, (frame.switches.x & FLAG_HOLD_EXPOSURE) != 0u);
+        let nearer = exp(mix(log(max(adaptation.x, 1e-12)), log(wanted), select(frame.adaptation, 1.0, adaptation.z == 0.0)));
+        let exposure = select(nearer, adaptation.x, (frame.flags & FLAG_HOLD_EXPOSURE) != 0u);
         adaptation = vec4<f32>(exposure, metered, 1.0, 1.0);
     }
 }

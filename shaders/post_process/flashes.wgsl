@@ -61,7 +61,7 @@ fn settle(@builtin(local_invocation_index) lane: u32) {
     if lane == 0u {
         let size = vec2<f32>(textureDimensions(picture));
         let mean = total / (size.x * size.y);
-        let most = frame.rise.y * shown.y + frame.rise.x;
+        let most = frame.rise_per_luminance * shown.y + frame.most_rise;
         shown = vec4<f32>(select(most / max(mean, 1e-12), 1.0, mean <= most), min(mean, most), 0.0, 0.0);
     }
 }

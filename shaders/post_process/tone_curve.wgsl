@@ -18,6 +18,6 @@ fn tone_curve(x: vec3<f32>) -> vec3<f32> {
 fn display_light(picture: vec3<f32>, glow: vec3<f32>, exposure: f32) -> vec3<f32> {
     // Infinite where sums of light were more than halves can hold.
     let light = min(picture, vec3<f32>(6e4));
-    let exposed = mix(light, glow, frame.light.w) * (exposure * frame.light.x);
+    let exposed = mix(light, glow, frame.bloom) * (exposure * frame.exposure_bias);
     return tone_curve(exposed);
 }

@@ -25,12 +25,12 @@ struct GroundLight {
 /// Position on the map of the ground with the normal n (rain axes). z: above 0 on a side that has an aurora, below 0 for everything but the
 /// planet. Round the pole opposite to the map's middle positions lie in all directions and cannot be interpolated: there z is below 0.
 fn ground_place(instance: Instance, n: vec3<f32>) -> vec3<f32> {
-    let body = vec3<f32>(dot(instance.turn_x.xyz, n), dot(instance.turn_y.xyz, n), dot(instance.turn_z.xyz, n));
+    let body = vec3<f32>(dot(instance.turn_x, n), dot(instance.turn_y, n), dot(instance.turn_z, n));
     let from_dipole = ground.dipole_x.xyz * body.x + ground.dipole_y.xyz * body.y + ground.dipole_z.xyz * body.z;
     let up = select(from_dipole.z, abs(from_dipole.z), ground.planet.y != 0u);
     let out = length(from_dipole.xy);
     let place = ground.map.xy + from_dipole.xy * (atan2(out, up) / max(out, 1e-6) * ground.map.z);
-    return select(vec3<f32>(-1.0), vec3<f32>(place, up), instance.ids.y == ground.planet.x);
+    return select(vec3<f32>(-1.0), vec3<f32>(place, up), instance.object == ground.planet.x);
 }
 
 /// The light of the aurora on the ground at a position of the map, as `irradiance` has it.

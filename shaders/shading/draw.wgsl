@@ -107,5 +107,5 @@ fn thin_fragment(in: Surface) -> Thin {
 
 /// Geometry inside the horizon is not seen from outside.
 fn hidden(in: Surface) -> bool {
-    return in.leaving.w < 1.0 && (frame.switches.x & FLAG_INSIDE) == 0u;
+    return in.leaving.w < 1.0 && (frame.flags & FLAG_INSIDE) == 0u;
 }

@@ -33,13 +33,12 @@ struct Surface {
 fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> Surface {
     let instance = instance_at(bitcast<u32>(vertex.surface.z));
     let material = bitcast<u32>(vertex.surface.w);
-    let ids = instance.ids;
     let kind = materials[material].surface;
     let filled = fill(instance);
     // Only nozzles (w of `kind`) shine with the engines.
-    let glow = vec4<f32>(vec3<f32>(1.0 - kind.w * instance.position.w), 1.0);
+    let glow = vec4<f32>(vec3<f32>(1.0 - kind.w * instance.engines_off), 1.0);
     return Surface(position, vertex.normal, vertex.leaving, vec3<f32>(vertex.surface.xy, vertex.apparent.w), coverage, vertex.fan.xyz,
-        vec3<u32>(ids.y, ids.x, u32(kind.y + 1.0)), instance.light_red * filled, instance.light_green * filled,
+        vec3<u32>(instance.object, instance.order, u32(kind.y + 1.0)), instance.light_red * filled, instance.light_green * filled,
         instance.light_blue * filled, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive * glow,
         ground_place(instance, before_turning(instance, vertex.normal.xyz, vertex.apparent.w)));
 }
@@ -47,12 +46,12 @@ fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> S
 /// Factor on the light that falls on the player's own ship, so that middle grey, at the exposure of the frame before, is neither too dark
 /// nor too light; 1 for all else. It changes as smoothly as the exposure.
 fn fill(instance: Instance) -> f32 {
-    if (instance.triangles.w & INSTANCE_OWN) == 0u || frame.fill.w == 0.0 {
+    if (instance.flags & INSTANCE_OWN) == 0u || frame.exposure_known == 0.0 {
         return 1.0;
     }
     let light = luminance(vec3<f32>(instance.light_red.w, instance.light_green.w, instance.light_blue.w));
-    let grey = max(MIDDLE_GREY * light * frame.fill.z * frame.light.x, 1e-9);
-    return clamp(grey, frame.fill.x, frame.fill.y) / grey;
+    let grey = max(MIDDLE_GREY * light * frame.last_exposure * frame.exposure_bias, 1e-9);
+    return clamp(grey, frame.least_fill, frame.greatest_fill) / grey;
 }
 
 /// Share of light that middle grey reflects.
@@ -88,7 +87,7 @@ fn shaded(in: Surface) -> vec3<f32> {
     let rim = grazing * grazing * grazing * grazing * grazing;
     let reflected = irradiance(in, normalize(mix(mirrored, n, vec3<f32>(roughness * roughness))));
     colour += (fresnel + (1.0 - fresnel) * rim * (1.0 - roughness)) * reflected * gloss(in, mirrored, roughness);
-    let flags = frame.switches.x;
+    let flags = frame.flags;
     let g = in.normal.w;
     return min(shifted_colour(colour, g, (flags & FLAG_DOPPLER) != 0u, (flags & FLAG_BEAMING) != 0u), vec3<f32>(6e4));
 }

@@ -53,8 +53,8 @@ fn exact_fragment(in: Exact) -> @location(0) vec4<f32> {
     }
     let level = panorama_level(view.size, textureDimensions(milky_way).y);
     let root = textureSampleLevel(milky_way, milky_way_sampler, view.uv, level).r;
-    let flags = frame.switches.x;
+    let flags = frame.flags;
     let colour = shifted_colour(panorama_light(root, PANORAMA_FAINT, PANORAMA_BRIGHT), view.g, (flags & FLAG_DOPPLER) != 0u,
         (flags & FLAG_BEAMING) != 0u);
-    return vec4<f32>(min(colour * frame.light.z, vec3<f32>(6e4)), 1.0);
+    return vec4<f32>(min(colour * frame.sky_brightness, vec3<f32>(6e4)), 1.0);
 }

@@ -37,7 +37,7 @@ const SKY_ERROR: f32 = 1.0;
 
 /// Normalised device coordinates of a place counted in cells from the upper left corner.
 fn cell_ndc(place: vec2<f32>) -> vec2<f32> {
-    let pixel = place * f32(cell_draws.side) / frame.size.xy;
+    let pixel = place * f32(cell_draws.side) / frame.size;
     return vec2<f32>(2.0 * pixel.x - 1.0, 1.0 - 2.0 * pixel.y);
 }
 
@@ -50,11 +50,11 @@ fn corner(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let ndc = cell_ndc(vec2<f32>(f32(id.x % across), f32(id.x / across)));
     let view = sky_view(ndc);
-    let flags = frame.switches.x;
+    let flags = frame.flags;
     // The shift is linear in the colour, so it may come before the mixing.
     var colours = array<vec3<f32>, 2>(PANORAMA_FAINT, PANORAMA_BRIGHT);
     for (var k = 0u; k < 2u; k++) {
-        colours[k] = frame.light.z * shifted_colour(colours[k], view.g, (flags & FLAG_DOPPLER) != 0u, (flags & FLAG_BEAMING) != 0u);
+        colours[k] = frame.sky_brightness * shifted_colour(colours[k], view.g, (flags & FLAG_DOPPLER) != 0u, (flags & FLAG_BEAMING) != 0u);
     }
     corners[id.x] = SkyCorner(vec4<f32>(view.uv, view.size, select(0.0, 1.0, view.lit)), vec4<f32>(colours[0], ndc.x),
         vec4<f32>(colours[1], ndc.y));

@@ -33,16 +33,16 @@ fn panorama_light(root: f32, faint: vec3<f32>, bright: vec3<f32>) -> vec3<f32> {
 
 /// The sky at a place of the screen (normalised device coordinates).
 fn sky_view(ndc: vec2<f32>) -> SkyView {
-    let pixel = normalize(vec3<f32>(ndc / frame.projection.xy, -1.0));
+    let pixel = normalize(vec3<f32>(ndc / frame.focal, -1.0));
     // Light that arrives from `pixel` is the null vector (pixel, −1) seen into the past.
     let past = frame.rain_from_camera * vec4<f32>(pixel, -1.0);
     let look = past.xyz / length(past.xyz);
-    let n = frame.radial.xyz;
+    let n = frame.outward;
     let cos_psi = clamp(dot(look, n), -1.0, 1.0);
     let across = look - n * cos_psi;
     let sin_psi = length(across);
     let psi = atan2(sin_psi, cos_psi);
-    let edge = frame.exposure.w;
+    let edge = frame.shadow_edge;
     if psi >= edge {
         return SkyView(vec2<f32>(0.0), 1.0, 1.0, false);
     }
@@ -55,10 +55,9 @@ fn sky_view(ndc: vec2<f32>) -> SkyView {
     let doppler = camera_doppler(look);
     let along = swept.y / max(edge - psi, 1e-7);
     let sideways = abs(sin(swept.x)) / max(sin_psi, 1e-5);
-    let size = frame.size.z * max(along, max(sideways, 1e-3)) * doppler;
+    let size = frame.pixel * max(along, max(sideways, 1e-3)) * doppler;
 
-    let icrs = frame.sky_x.xyz * direction.x + frame.sky_y.xyz * direction.y + frame.sky_z.xyz * direction.z;
-    return SkyView(panorama_place(icrs), size, sky_ratio(cos_psi, doppler), true);
+    return SkyView(panorama_place(direction), size, sky_ratio(cos_psi, doppler), true);
 }
 
 /// The level of the panorama, `height` texels high, whose texels are as large as the pixel.

@@ -19,12 +19,12 @@ fn vertex(@builtin(vertex_index) i: u32) -> Spot {
     let corners = array<vec2<f32>, 3>(vec2<f32>(-1.7320508, -1.0), vec2<f32>(1.7320508, -1.0), vec2<f32>(0.0, 2.0));
     let corner = corners[i % 3u] * star.place.z;
     // A depth just nearer than the sky's: everything solid hides it.
-    return Spot(vec4<f32>(star.place.xy + corner * 2.0 / frame.size.xy, 1e-12, 1.0), corner, star.colour.rgb);
+    return Spot(vec4<f32>(star.place.xy + corner * 2.0 / frame.size, 1e-12, 1.0), corner, star.colour.rgb);
 }
 
 @fragment
 fn fragment(in: Spot) -> @location(0) vec4<f32> {
-    let square = 2.0 * frame.sky_y.w * frame.sky_y.w;
+    let square = 2.0 * frame.star_sigma * frame.star_sigma;
     let weight = exp(-dot(in.place, in.place) / square) / (3.14159265 * square);
     return vec4<f32>(in.colour * weight, 0.0);
 }

@@ -40,19 +40,19 @@ const LEAST: f32 = 1e-2;
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let cluster = star_clusters[id.x / LANES];
     let order = cluster.z;
-    let n = frame.radial.xyz;
-    let flags = frame.switches.x;
-    let exposure = frame.fill.z;
+    let n = frame.outward;
+    let flags = frame.flags;
+    let exposure = frame.last_exposure;
     // Speed makes more of one star than of another: over an angle θ the Doppler factor 1/(γ(1 − β cos)) changes by e^{βγθ} at most, and the
     // light by its square.
     let gamma = frame.camera_from_rain[3].w;
     let sure = SURE * exp(2.0 * CLUSTER_WIDTH * sqrt(max(gamma * gamma - 1.0, 0.0)));
     // Two pixels of margin for the spot.
-    let margin = 1.0 + 4.0 / frame.size.xy;
+    let margin = 1.0 + 4.0 / frame.size;
     // A loop that ends is all that software drivers skip work by: a branch is run through by all.
     for (var i = id.x % LANES; i < cluster.y; i += LANES) {
         let star = stars[cluster.x + i];
-        if star.direction.w < frame.sky_z.w {
+        if star.direction.w < frame.faintest_star {
             break;
         }
         let cos_phi = clamp(dot(star.direction.xyz, n), -1.0, 1.0);
@@ -61,22 +61,22 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let phi = atan2(sin_phi, cos_phi);
         let turn = select(1.0, -1.0, order == 2u);
         let s = sky_seen(select(0.0, 2.0 * PI, order != 1u) + turn * phi);
-        let gap = frame.exposure.w * exp(-s.x);
-        let psi = frame.exposure.w - gap;
+        let gap = frame.shadow_edge * exp(-s.x);
+        let psi = frame.shadow_edge - gap;
         let cos_psi = cos(psi);
         let sin_psi = sin(psi);
         let look = n * cos_psi + across * (turn * sin_psi / max(sin_phi, 1e-9));
         let doppler = camera_doppler(look);
         // dΩ_camera/dΩ_sky = (sinψ dψ)/(sinΦ dΦ) / D²; dψ/dΦ = gap · ds/dΦ.
         let magnification = sin_psi * gap * s.y / max(sin_phi, STAR_DISC) / (doppler * doppler);
-        let flux = star.direction.w * magnification * frame.light.y;
+        let flux = star.direction.w * magnification * frame.star_brightness;
         let g = sky_ratio(cos_psi, doppler);
         let exposed = flux * max(g * g * g * g, 1.0) * exposure;
         if (exposed * sure < LEAST) & (sin_phi > NEAR_AXIS) {
             break;
         }
         let camera = (frame.camera_from_rain * vec4<f32>(look, -1.0)).xyz;
-        let ndc = camera.xy * frame.projection.xy / -camera.z;
+        let ndc = camera.xy * frame.focal / -camera.z;
         if (exposed < LEAST) | (camera.z >= 0.0) | any(abs(ndc) > margin) {
             continue;
         }
@@ -89,7 +89,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             atomicSub(&star_draw.vertices, 3u);
             break;
         }
-        seen_stars[slot] = SeenStar(vec4<f32>(ndc, frame.sky_y.w * select(3.6, 2.2, luminance(colour) * exposure < 0.1), 0.0),
+        seen_stars[slot] = SeenStar(vec4<f32>(ndc, frame.star_sigma * select(3.6, 2.2, luminance(colour) * exposure < 0.1), 0.0),
             vec4<f32>(min(colour, vec3<f32>(6e4)), 1.0));
     }
 }

@@ -51,5 +51,5 @@ fn camera_doppler(look: vec3<f32>) -> f32 {
 
 /// ν_observed/ν_infinity for light from infinity that the rain frame sees at ψ.
 fn sky_ratio(cos_psi: f32, doppler: f32) -> f32 {
-    return doppler / max(1.0 + frame.side_b.w * cos_psi, 1e-6);
+    return doppler / max(1.0 + frame.river_speed * cos_psi, 1e-6);
 }

@@ -1,6 +1,6 @@
 //! What one frame is made from: a camera, objects, settings. Plain data, made by the stage in the game and by hand in tests.
 
-use crate::render::settings::{Capacity, Settings};
+use crate::render::settings::Settings;
 use crate::spacetime::Observer;
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ use crate::spacetime::orbit::static_momentum;
 use crate::spacetime::{frames, light};
 
 use crate::render::aurora::AuroraFrame;
-use crate::render::gpu::types::{self, flags};
+use crate::render::gpu::types::{self, Capacity, flags as flag};
 use crate::render::instances::Placed;
 
 /// All that a frame shows.
@@ -37,50 +37,66 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types:
     let radius = camera.radius();
     let cot = 1.0 / (0.5 * camera.field_of_view).tan();
     let pixel = 2.0 / (cot * f64::from(size[0]));
-    let mut switches = 0;
+    let mut flags = 0;
     for (on, bit) in [
-        (settings.doppler, flags::DOPPLER),
-        (settings.beaming, flags::BEAMING),
-        (radius < 1.0, flags::INSIDE),
-        (settings.hold_exposure, flags::HOLD_EXPOSURE),
-        (settings.midpoint, flags::MIDPOINT),
+        (settings.doppler, flag::DOPPLER),
+        (settings.beaming, flag::BEAMING),
+        (radius < 1.0, flag::INSIDE),
+        (settings.hold_exposure, flag::HOLD_EXPOSURE),
+        (settings.midpoint, flag::MIDPOINT),
     ] {
         if on {
-            switches |= bit;
+            flags |= bit;
         }
     }
     let bends = settings.method.bends();
     // Without a hole there is no rain frame: all directions are those of static observers.
     let river = if bends { DVec3::ZERO } else { static_momentum(camera.position).unwrap_or(DVec3::ZERO) };
-    let row = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
+    let axis = |v: DVec3| v.as_vec3().to_array();
     let edge = if bends { light::shadow_angle(1.0 / radius) } else { std::f64::consts::PI };
     types::Frame {
         camera_from_rain: (camera.camera_from_rain() * frames::boost(-river)).as_mat4().to_cols_array_2d(),
         rain_from_camera: (frames::boost(river) * camera.rain_from_camera()).as_mat4().to_cols_array_2d(),
-        radial: row(n, radius),
-        side_a: row(a, f64::from(settings.min_width)),
-        side_b: row(b, if bends { (1.0 / radius).sqrt() } else { 0.0 }),
-        projection: [cot as f32, (cot * f64::from(size[0]) / f64::from(size[1])) as f32, settings.near, input.time as f32],
-        size: [size[0] as f32, size[1] as f32, pixel as f32, (pixel * f64::from(settings.pixel_error)) as f32],
-        light: [
-            settings.exposure_bias,
-            // A spot spreads a star's light over pixels of this solid angle.
-            settings.star_brightness * SKY_UNIT / (pixel * pixel) as f32,
-            if settings.milky_way { settings.sky_brightness * SKY_UNIT * milky_way::PEAK } else { 0.0 },
-            settings.bloom,
-        ],
-        exposure: [settings.exposure_range[0], settings.exposure_range[1], settings.adaptation, edge as f32],
-        switches: [switches, settings.halvings, 0, settings.orders],
-        sky_x: [1.0, 0.0, 0.0, settings.exposure_key],
-        sky_y: [0.0, 1.0, 0.0, settings.star_sigma],
-        sky_z: [0.0, 0.0, 1.0, settings.faintest_star],
-        capacity: [capacity.vertices, capacity.indices, capacity.work, capacity.thin],
+        outward: axis(n),
+        camera_radius: radius as f32,
+        side_a: axis(a),
+        least_width: settings.min_width,
+        side_b: axis(b),
+        river_speed: if bends { (1.0 / radius).sqrt() as f32 } else { 0.0 },
+        focal: [cot as f32, (cot * f64::from(size[0]) / f64::from(size[1])) as f32],
+        near: settings.near,
+        time: input.time as f32,
+        size: size.map(|pixels| pixels as f32),
+        pixel: pixel as f32,
+        error_budget: (pixel * f64::from(settings.pixel_error)) as f32,
+        exposure_bias: settings.exposure_bias,
+        // A spot spreads a star's light over pixels of this solid angle.
+        star_brightness: settings.star_brightness * SKY_UNIT / (pixel * pixel) as f32,
+        sky_brightness: if settings.milky_way { settings.sky_brightness * SKY_UNIT * milky_way::PEAK } else { 0.0 },
+        bloom: settings.bloom,
+        least_exposure: settings.exposure_range[0],
+        greatest_exposure: settings.exposure_range[1],
+        adaptation: settings.adaptation,
+        shadow_edge: edge as f32,
+        flags,
+        halvings: settings.halvings,
+        star_sigma: settings.star_sigma,
+        faintest_star: settings.faintest_star,
+        capacity,
+        least_fill: settings.fill[0],
+        greatest_fill: settings.fill[1],
         // The exposure of the frame before is copied in on the device.
-        fill: [settings.fill[0], settings.fill[1], 1.0, 0.0],
-        unmetered: [settings.unmetered[0], settings.unmetered[1], settings.unmetered[2], settings.exposure_key],
-        disk: [0; 4],
+        last_exposure: 1.0,
+        exposure_known: 0.0,
+        unmetered_middle: [settings.unmetered[0], settings.unmetered[1]],
+        unmetered_radius: settings.unmetered[2],
+        exposure_key: settings.exposure_key,
+        disk_indices: [0; 4],
+        exposure_key_without_disk: settings.exposure_key,
+        most_rise: settings.rise,
         // Over what, the renderer knows.
-        rise: [settings.rise, 0.0, 0.0, 0.0],
+        rise_per_luminance: 0.0,
+        unused: 0.0,
     }
 }
 

@@ -317,19 +317,19 @@ impl Renderer {
         }
         let mut uniform = uniform(input, self.targets.size, self.geometry.capacity());
         if let Some(disk) = self.disk() {
-            uniform.sky_x[3] = disk.disk().config.exposure_key as f32;
-            uniform.disk = [1; 4];
+            uniform.exposure_key = disk.disk().config.exposure_key as f32;
+            uniform.disk_indices = [1; 4];
         }
         self.finish.steady = input.settings.rise.is_finite();
         match self.before {
             Before::Black => {}
             // Nobody sees a jump here: it is the picture that was shown without a bound.
-            Before::Unmeasured => uniform.rise[0] = f32::MAX,
-            Before::Measured => uniform.rise[1] = 1.0,
+            Before::Unmeasured => uniform.most_rise = f32::MAX,
+            Before::Measured => uniform.rise_per_luminance = 1.0,
         }
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
         let begin = self.timing.worked("lists of bodies", begin);
-        let edge = f64::from(uniform.exposure[3]);
+        let edge = f64::from(uniform.shadow_edge);
         self.stars.prepare(&self.gpu, camera, if input.settings.stars { &self.sky } else { &[] }, edge, self.targets.size);
         let begin = self.timing.worked("lists of stars", begin);
         self.background.prepare(&self.gpu, self.targets.size);
@@ -347,9 +347,9 @@ impl Renderer {
         self.timing.begin();
         self.counted.iter_mut().for_each(DeferredCopy::begin);
         // The own ship is lit by the exposure of the frame before, and stars that would not have been visible then are left out.
-        let fill = offset_of!(types::Frame, fill) as u64;
-        encoder.copy_buffer_to_buffer(&self.adaptation, 0, &self.frame, fill + 8, 4);
-        encoder.copy_buffer_to_buffer(&self.adaptation, 8, &self.frame, fill + 12, 4);
+        let [exposure, known] = [offset_of!(types::Frame, last_exposure), offset_of!(types::Frame, exposure_known)];
+        encoder.copy_buffer_to_buffer(&self.adaptation, 0, &self.frame, exposure as u64, 4);
+        encoder.copy_buffer_to_buffer(&self.adaptation, 8, &self.frame, known as u64, 4);
         let disk = self.disk.as_ref().filter(|_| self.has_disk);
         let shown = Shown {
             geometry: &self.geometry,
@@ -364,7 +364,7 @@ impl Renderer {
         shown.compute(&mut recording);
         if let Some(disk) = disk.filter(|disk| disk.is_of_arcs()) {
             // Whether any of it is in the picture.
-            let [from, to] = [offset_of!(DiskCounters, indices), offset_of!(types::Frame, disk)].map(|offset| offset as u64);
+            let [from, to] = [offset_of!(DiskCounters, indices), offset_of!(types::Frame, disk_indices)].map(|offset| offset as u64);
             recording.encoder.copy_buffer_to_buffer(disk.arcs().counters(), from, &self.frame, to, 16);
         }
         shown.draw_opaque(&mut recording);

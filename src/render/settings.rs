@@ -140,16 +140,3 @@ impl Settings {
         }
     }
 }
-
-/// Room in the buffers of geometry: past it patches are drawn coarser, and counted.
-#[derive(Clone, Copy, Debug)]
-pub struct Capacity {
-    /// Seen vertices.
-    pub vertices: u32,
-    /// Indices of opaque triangles.
-    pub indices: u32,
-    /// Pieces and work items.
-    pub work: u32,
-    /// Vertices of thin triangles.
-    pub thin: u32,
-}

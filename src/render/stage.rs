@@ -222,7 +222,7 @@ impl Stage {
                     shine(&mut images, histories[ship], time, full);
                 }
                 if settings.own_ship == Some(ship) {
-                    images.iter_mut().for_each(|image| image.instance.triangles[3] |= OWN);
+                    images.iter_mut().for_each(|image| image.instance.flags |= OWN);
                     unmetered = images.first().map_or([0.0; 3], |image| circle(&camera, image, object.reach));
                 }
             }
@@ -281,8 +281,8 @@ fn motion<'a>(body: &Body, time: f64, line: Option<&'a History>) -> Option<(Moti
 /// Lets the nozzles in the images of a ship at T = `time` shine by its thrust; `full` (c²/r_s) is all that it has.
 fn shine(images: &mut [Placed], history: &History, time: f64, full: f64) {
     for image in images {
-        let emitted = time - f64::from(image.instance.offset[3]);
-        image.instance.position[3] = (1.0 - glow(history, emitted, full)) as f32;
+        let emitted = time - f64::from(image.instance.delay);
+        image.instance.engines_off = (1.0 - glow(history, emitted, full)) as f32;
     }
 }
 
@@ -301,12 +301,12 @@ fn glow(history: &History, time: f64, full: f64) -> f64 {
 /// Where a ship of radius `reach` (r_s) is seen, approximately: along straight light through space that falls evenly. Its middle and
 /// radius, in widths of the picture. That is exact enough within a few lengths, and farther away ships are small.
 fn circle(camera: &Observer, image: &Placed, reach: f64) -> [f32; 3] {
-    let [x, y, z, delay] = image.instance.offset.map(f64::from);
+    let delay = f64::from(image.instance.delay);
     // Space falls inwards at √(1/r) and takes the light with it.
     let radius = camera.radius().max(1e-3);
-    let offset = DVec3::new(x, y, z) - camera.position / radius * (delay / radius.sqrt());
+    let offset = DVec3::from_array(image.instance.offset.map(f64::from)) - camera.position / radius * (delay / radius.sqrt());
     let apparent = (camera.camera_from_rain() * offset.extend(-offset.length())).truncate();
-    if image.instance.ids[0] != 1 || apparent.z >= -1e-3 {
+    if image.instance.order != 1 || apparent.z >= -1e-3 {
         return [0.0; 3];
     }
     let scale = 0.5 / ((0.5 * camera.field_of_view).tan() * -apparent.z);

@@ -74,8 +74,8 @@ fn what_is_not_finite_is_counted_and_not_drawn() {
     assert_eq!(bench.renderer.counters().unwrap().caught, 0);
     for wrong in [f32::NAN, f32::INFINITY] {
         let mut bad = good.clone();
-        bad[0].instance.ids[1] = 2;
-        bad[0].instance.shape[1][2] = wrong;
+        bad[0].instance.object = 2;
+        bad[0].instance.shape_y[2] = wrong;
         let both = bad.iter().chain(&good).cloned().collect();
         let picture = bench.renderer.picture(&frame(both, settings), true).unwrap();
         assert!(picture.layers.iter().all(|texel| texel[0] != 2.0), "it was drawn");
@@ -87,7 +87,7 @@ fn what_is_not_finite_is_counted_and_not_drawn() {
     }
     // Finite, but past what f32 can square: caught where it arises.
     let mut huge = good.clone();
-    huge[0].instance.shape[0][0] = 3e38;
+    huge[0].instance.shape_x[0] = 3e38;
     let picture = bench.renderer.picture(&frame(huge, settings), true).unwrap();
     assert!(picture.linear.iter().flatten().all(|x| x.is_finite()));
     assert!(bench.renderer.counters().unwrap().caught > 0);
@@ -150,7 +150,7 @@ fn the_settings_of_geometry_do_what_they_say() {
         let mut placed = ball(bench, far, size, &settings);
         if pixel {
             // The bench places by tiny pixels; here the image is thin.
-            placed.iter_mut().for_each(|one| one.instance.triangles[3] |= lensrunner::render::gpu::types::placed::THIN);
+            placed.iter_mut().for_each(|one| one.instance.flags |= lensrunner::render::gpu::types::placed::THIN);
         }
         bench.renderer.picture(&frame(placed, settings), false).unwrap();
         bench.renderer.counters().unwrap()
@@ -183,8 +183,8 @@ fn the_settings_of_geometry_do_what_they_say() {
     assert_eq!(count(Settings { least_width: 10.0, ..quiet() }), 1);
     assert_eq!(first(Settings { coarse_below: 6.0, ..quiet() }).model.triangles, stand_in.triangles);
     assert_ne!(first(Settings { coarse_below: 1.0, ..quiet() }).model.triangles, stand_in.triangles);
-    assert_eq!(first(Settings { thin_below: 3.0, ..quiet() }).instance.triangles[3] & THIN, THIN);
-    assert_eq!(first(Settings { thin_below: 0.5, ..quiet() }).instance.triangles[3] & THIN, 0);
+    assert_eq!(first(Settings { thin_below: 3.0, ..quiet() }).instance.flags & THIN, THIN);
+    assert_eq!(first(Settings { thin_below: 0.5, ..quiet() }).instance.flags & THIN, 0);
 }
 
 /// The rings of orders 2 and 3 of a ball, a twentieth of a pixel wide: the second is an unbroken line, the third nearly.

@@ -133,20 +133,20 @@ fn displaced(history: &History, emission: f64, way: impl Fn(DVec3, f64) -> DVec3
 /// What of an instance tells the motion, for a body of a unit of 1 r_s.
 fn instance_of(history: &History, emission: f64, swing: &Swing) -> Instance {
     let now = history.at(emission);
-    let row = |v: DVec3, w: f64| {
-        let Vec3 { x, y, z } = v.as_vec3();
-        [x, y, z, w as f32]
-    };
-    let last = |v: DVec3| v.as_vec3().to_array().map(|w| [0.0, 0.0, 0.0, w]);
-    let [first, step] = swing.times.map(|time| time as f32);
+    let numbers = |v: DVec3| v.as_vec3().to_array();
+    let [first_node, step] = swing.times.map(|time| time as f32);
     Instance {
-        velocity: row(now.velocity, 1.0),
-        shape: last(swing.acceleration),
-        turn: last(swing.jerk),
-        snap: row(swing.snap, 0.0),
-        drift: row(now.momentum, 0.0),
-        force: row(swing.force, f64::from(u8::from(swing.strays))),
-        nodes: [first, step.recip(), (swing.nodes.len() - 1) as f32, 0.0],
+        velocity: numbers(now.velocity),
+        scale: 1.0,
+        acceleration: numbers(swing.acceleration),
+        jerk: numbers(swing.jerk),
+        snap: numbers(swing.snap),
+        contraction: numbers(now.momentum),
+        force: numbers(swing.force),
+        strays: f32::from(u8::from(swing.strays)),
+        first_node,
+        nodes_per_time: step.recip(),
+        node_intervals: (swing.nodes.len() - 1) as f32,
         ..Instance::default()
     }
 }

@@ -90,10 +90,10 @@ fn among_azimuths(azimuth: f32) -> vec2<f32> {
 /// as it is drawn (`before`, see [`second_before`]) is corrected to the exact one.
 fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency: f32, observed: f32, share: f32,
     before: vec2<f32>) -> vec3<f32> {
-    let n = frame.radial.xyz;
-    let energy = frequency - frame.side_b.w * dot(n, arriving);
-    let angular = cross(n * frame.radial.w, arriving);
-    let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
+    let n = frame.outward;
+    let energy = frequency - frame.river_speed * dot(n, arriving);
+    let angular = cross(n * frame.camera_radius, arriving);
+    let shifts = (frame.flags & FLAG_DOPPLER) != 0u;
     let v = streak_variance();
     var light = 0.0;
     var stopped = 0.0;
@@ -249,9 +249,9 @@ fn rays_of(row: u32, at: Bearing, plane: HalfPlane) -> Rays {
 fn open_gap(row: u32, at: Bearing, plane: HalfPlane, rays: Rays) -> f32 {
     let circle = circles[row];
     let gap = circle.place.z;
-    let n = frame.radial.xyz;
+    let n = frame.outward;
     let ray = rays.ray;
-    let pixel = frame.size.z * pixel_of(n * ray.cos_psi + plane.side * ray.sin_psi, plane.side * ray.cos_psi - n * ray.sin_psi);
+    let pixel = frame.pixel * pixel_of(n * ray.cos_psi + plane.side * ray.sin_psi, plane.side * ray.cos_psi - n * ray.sin_psi);
     // Across the circle, from its direction on the screen: towards the axis and round it per radian of θ.
     let across = (rays.psi.z - rays.psi.x) / step_aside(at) * disk.sideways.w * at.sine / max(plane.reach, 1e-12);
     let way = vec2<f32>(across, ray.sin_psi * disk.upwards.w / max(plane.reach * plane.reach, 1e-12));
@@ -274,7 +274,7 @@ struct Apparition {
 
 /// `turn` is −1 where the image is on the other side of the axis; `share` that of the ring's area that has gas.
 fn apparition_of(order: u32, plane: HalfPlane, rays: Rays, turn: f32, share: f32) -> Apparition {
-    let n = frame.radial.xyz;
+    let n = frame.outward;
     let ray = rays.ray;
     let side = plane.side;
     let seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
@@ -282,7 +282,7 @@ fn apparition_of(order: u32, plane: HalfPlane, rays: Rays, turn: f32, share: f32
         return Apparition(seen_at, seen_at, vec2<f32>(share, 1e6), vec2<f32>(0.0, 1e6));
     }
     // Pixels by the size of one at this place of the picture.
-    let pixel = frame.size.z * pixel_of(seen_at, side * (turn * ray.cos_psi) - n * ray.sin_psi);
+    let pixel = frame.pixel * pixel_of(seen_at, side * (turn * ray.cos_psi) - n * ray.sin_psi);
     let half = 0.5 * abs(rays.psi.z - rays.psi.y) / pixel;
     let middle = 0.5 * (rays.psi.y + rays.psi.z);
     let d = clamp((rays.psi.x - middle) / (pixel * max(half, 1e-4)), -1.0, 1.0) * drawn_half(half);
@@ -306,7 +306,7 @@ struct SeenGas {
 fn seen_gas(row: u32, own: SeenGas, slant: f32, azimuth: f32, rays: Rays, seen: Apparition, share: f32) -> SeenGas {
     let circle = circles[row];
     let own_part = own_share(seen.thin.y);
-    let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
+    let shifts = (frame.flags & FLAG_DOPPLER) != 0u;
     let coming = -seen.all_at * rays.ray.frequency;
     let seen_as = camera_doppler_of(seen.all_at) * rays.ray.frequency;
     // Software drivers skip a loop without steps, but run through every branch.
@@ -342,7 +342,7 @@ fn bend_of(row: u32, at: Bearing, azimuth: f32, own: f32) -> vec4<f32> {
 fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     let circle = circles[row];
     let order = circle.rows.x;
-    let n = frame.radial.xyz;
+    let n = frame.outward;
     let s = at.sine;
     let c = at.cosine;
     let turn = select(1.0, -1.0, order == 2u);

@@ -58,11 +58,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 
 /// The sides of the screen, as bits, that an arc is surely beyond: its ends and its middle all by more than it bends.
 fn sides_beyond(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, error: f32) -> u32 {
-    let fx = frame.projection.x;
-    let fy = frame.projection.y;
+    let fx = frame.focal.x;
+    let fy = frame.focal.y;
     let sx = inverseSqrt(1.0 + fx * fx);
     let sy = inverseSqrt(1.0 + fy * fy);
-    let margin = vec3<f32>(length(a), length(b), length(c)) * (min(error, 3.0) + 4.0 * frame.size.z);
+    let margin = vec3<f32>(length(a), length(b), length(c)) * (min(error, 3.0) + 4.0 * frame.pixel);
     let x = vec3<f32>(a.x, b.x, c.x);
     let y = vec3<f32>(a.y, b.y, c.y);
     let z = -vec3<f32>(a.z, b.z, c.z);

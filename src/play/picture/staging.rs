@@ -126,7 +126,7 @@ fn rehearsal(stage: In<Stage>, now: Now) -> Vec<FrameInput> {
     let own = frame(FrameCamera::own(me, &state, CameraView::ThirdPerson, state.attitude, now.session.length(me), field_of_view));
     let far = frame(FrameCamera::afar(state.position, 0.0, field_of_view));
     let mut thin = far.clone();
-    thin.placed.iter_mut().for_each(|image| image.instance.triangles[3] |= THIN);
+    thin.placed.iter_mut().for_each(|image| image.instance.flags |= THIN);
     let mut inside = own.clone();
     inside.camera.position *= INSIDE / inside.camera.radius();
     vec![far, own, thin, inside]

@@ -15,7 +15,7 @@ use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::types::placed::{HELD, TWO_SIDED};
 use crate::render::gpu::types::{ARGUMENTS_OPAQUE, Instance};
-use crate::render::instances::{Placed, by_axis};
+use crate::render::instances::{Placed, place_by_axis};
 use crate::render::method::Method;
 use crate::render::models::{ModelRange, ModelSet, Models};
 use crate::scene::disk::polygons::{Ring, model, rings};
@@ -114,10 +114,21 @@ impl PolygonPass {
         let p = height * DVec3::Z - input.camera.position;
         // T − T₀: about the time that light takes from the hole's surroundings.
         let elapsed = input.camera.radius();
-        let offset = [p.x as f32, p.y as f32, p.z as f32, elapsed as f32];
-        let momentum = [0.0, 0.0, 0.0, 1.0];
-        let unit = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
-        let axis = by_axis(&input.camera, &Instance::default(), height * DVec3::Z, self.extent[1] + elapsed);
+        let mut unplaced = Instance {
+            offset: p.as_vec3().to_array(),
+            delay: elapsed as f32,
+            position: [0.0, 0.0, height as f32],
+            gamma: 1.0,
+            shape_x: [1.0, 0.0, 0.0],
+            shape_y: [0.0, 1.0, 0.0],
+            shape_z: [0.0, 0.0, 1.0],
+            turn_x: [1.0, 0.0, 0.0],
+            turn_y: [0.0, 1.0, 0.0],
+            turn_z: [0.0, 0.0, 1.0],
+            flags: HELD_TWO_SIDED,
+            ..Instance::default()
+        };
+        place_by_axis(&mut unplaced, &input.camera, height * DVec3::Z, self.extent[1] + elapsed);
         let mut placed = Vec::new();
         let mut turning = Vec::new();
         for order in 1..=input.settings.orders.min(input.settings.method.orders()).min(3) {
@@ -125,21 +136,12 @@ impl PolygonPass {
                 let azimuth = part.rate.map_or(0.0, |rate| (rate * (input.time - elapsed)).rem_euclid(TAU));
                 let [inner, outer] = part.rims.map(|rim| rim.map_or(-1.0, |radius| radius as f32));
                 let rate = part.rate.unwrap_or_default();
-                let instance = Instance {
-                    offset,
-                    axis,
-                    position: [0.0, 0.0, height as f32, 0.0],
-                    velocity: [0.0, 0.0, 0.0, if part.rate.is_some() { 1.0 } else { 0.0 }],
-                    momentum,
-                    shape: unit,
-                    spin: [inner, outer, rate as f32, azimuth as f32],
-                    turn: unit,
-                    // Light may cross a ring in several orders, so each order has its own id for coverage (`coverage_sign`).
-                    ids: [order, order, 0, 0],
-                    triangles: [0, 0, 0, HELD_TWO_SIDED],
-                    ..Instance::default()
-                };
-                placed.push(Placed { model: part.range, instance, nodes: Vec::new(), calmed: false });
+                // Light may cross a ring in several orders, so each order has its own id for coverage (`coverage_sign`).
+                let scale = if part.rate.is_some() { 1.0 } else { 0.0 };
+                let instance = Instance { scale, order, object: order, ..unplaced };
+                // `Ring` of shaders/instances/ring.wgsl.
+                let ring = [inner, outer, rate as f32, azimuth as f32];
+                placed.push(Placed { model: part.range, instance, nodes: vec![[ring, [0.0; 4], [0.0; 4]]], calmed: false });
                 turning.push([rate / TAU, azimuth / TAU].map(|value| value as f32));
             }
         }

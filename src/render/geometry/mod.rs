@@ -19,12 +19,11 @@ use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slo
 use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::types::placed::THIN;
-use crate::render::gpu::types::{self, Chunk, Counters, Instance, SeenVertex};
+use crate::render::gpu::types::{self, Capacity, Chunk, Counters, Instance, SeenVertex};
 use crate::render::instances::Placed;
 use crate::render::instances::swing::Node;
 use crate::render::method::Method;
 use crate::render::models::Models;
-use crate::render::settings::Capacity;
 
 /// Threads of a workgroup; `@workgroup_size` of the stages.
 const LANES: u32 = 64;
@@ -139,7 +138,7 @@ fn instance_table<'a>(instances: &mut [Instance], nodes: impl Iterator<Item = &'
     let mut first = size_of_val(instances) / size_of::<[f32; 4]>();
     let mut behind: Vec<[f32; 4]> = Vec::new();
     for (instance, nodes) in instances.iter_mut().zip(nodes) {
-        instance.nodes[3] = f32::from_bits(first as u32);
+        instance.node_texel = first as u32;
         behind.extend(nodes.as_flattened());
         first += nodes.as_flattened().len();
     }
@@ -249,10 +248,11 @@ impl Geometry {
         for item in drawn() {
             let model = item.model;
             let mut instance = item.instance;
-            instance.ids[2] = vertices;
-            instance.ids[3] = all_vertices + edges;
-            instance.vertices = [model.vertices[0], model.vertices[1], model.edges[0], model.edges[1]];
-            instance.triangles = [model.triangles[0], model.triangles[1], model.material, item.instance.triangles[3]];
+            (instance.first_seen, instance.first_state) = (vertices, all_vertices + edges);
+            [instance.first_vertex, instance.vertex_count] = model.vertices;
+            [instance.first_edge, instance.edge_count] = model.edges;
+            [instance.first_triangle, instance.triangle_count] = model.triangles;
+            instance.first_material = model.material;
             let number = instances.len() as u32;
             for (list, count) in chunks.iter_mut().zip([model.vertices[1], model.edges[1], model.triangles[1]]) {
                 list.extend((0..count.div_ceil(LANES)).map(|chunk| Chunk { instance: number, first: chunk * LANES }));
@@ -263,8 +263,8 @@ impl Geometry {
             instances.push(instance);
         }
         self.thin_across = [false; 4];
-        for instance in instances.iter().filter(|instance| instance.triangles[3] & THIN != 0) {
-            let (order, crossings) = (instance.ids[0] as usize, instance.snap[3]);
+        for instance in instances.iter().filter(|instance| instance.flags & THIN != 0) {
+            let (order, crossings) = (instance.order as usize, instance.crossings);
             let range = if crossings < 0.0 { order - 1..=order } else { crossings as usize..=crossings as usize };
             self.thin_across[range].fill(true);
         }

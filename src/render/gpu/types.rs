@@ -1,6 +1,8 @@
 //! The types that Rust and WGSL share, `shaders/gpu/types.wgsl` being the other half. tests/render/gpu/types.rs holds sizes, offsets and
 //! constants equal.
 
+use std::mem::offset_of;
+
 use bytemuck::{Pod, Zeroable};
 
 /// What the whole frame shares: camera, size, switches. Field by field as `Frame` in WGSL, where the meaning of each is written.
@@ -10,25 +12,57 @@ use bytemuck::{Pod, Zeroable};
 pub struct Frame {
     pub camera_from_rain: [[f32; 4]; 4],
     pub rain_from_camera: [[f32; 4]; 4],
-    pub radial: [f32; 4],
-    pub side_a: [f32; 4],
-    pub side_b: [f32; 4],
-    pub projection: [f32; 4],
-    pub size: [f32; 4],
-    pub light: [f32; 4],
-    pub exposure: [f32; 4],
-    pub switches: [u32; 4],
-    pub sky_x: [f32; 4],
-    pub sky_y: [f32; 4],
-    pub sky_z: [f32; 4],
-    pub capacity: [u32; 4],
-    pub fill: [f32; 4],
-    pub unmetered: [f32; 4],
-    pub disk: [u32; 4],
-    pub rise: [f32; 4],
+    pub outward: [f32; 3],
+    pub camera_radius: f32,
+    pub side_a: [f32; 3],
+    pub least_width: f32,
+    pub side_b: [f32; 3],
+    pub river_speed: f32,
+    pub focal: [f32; 2],
+    pub near: f32,
+    pub time: f32,
+    pub size: [f32; 2],
+    pub pixel: f32,
+    pub error_budget: f32,
+    pub exposure_bias: f32,
+    pub star_brightness: f32,
+    pub sky_brightness: f32,
+    pub bloom: f32,
+    pub least_exposure: f32,
+    pub greatest_exposure: f32,
+    pub adaptation: f32,
+    pub shadow_edge: f32,
+    pub flags: u32,
+    pub halvings: u32,
+    pub star_sigma: f32,
+    pub faintest_star: f32,
+    pub capacity: Capacity,
+    pub least_fill: f32,
+    pub greatest_fill: f32,
+    pub last_exposure: f32,
+    pub exposure_known: f32,
+    pub unmetered_middle: [f32; 2],
+    pub unmetered_radius: f32,
+    pub exposure_key: f32,
+    pub disk_indices: [u32; 4],
+    pub exposure_key_without_disk: f32,
+    pub most_rise: f32,
+    pub rise_per_luminance: f32,
+    pub unused: f32,
 }
 
-/// Bits of `Frame::switches[0]`, the `FLAG_*` of WGSL.
+/// `Capacity` in WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
+pub struct Capacity {
+    pub vertices: u32,
+    pub indices: u32,
+    pub work: u32,
+    pub thin: u32,
+}
+
+/// Bits of `Frame::flags`, the `FLAG_*` of WGSL.
 pub mod flags {
     /// Light changes its colour.
     pub const DOPPLER: u32 = 1;
@@ -47,36 +81,74 @@ pub mod flags {
 #[repr(C)]
 #[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
 pub struct Instance {
-    pub offset: [f32; 4],
-    pub axis: [f32; 4],
-    pub position: [f32; 4],
-    pub velocity: [f32; 4],
-    pub momentum: [f32; 4],
-    pub shape: [[f32; 4]; 3],
-    pub spin: [f32; 4],
-    pub nodes: [f32; 4],
-    pub drift: [f32; 4],
-    pub force: [f32; 4],
-    pub turn: [[f32; 4]; 3],
-    pub snap: [f32; 4],
+    pub offset: [f32; 3],
+    pub delay: f32,
+    pub position: [f32; 3],
+    pub engines_off: f32,
+    pub velocity: [f32; 3],
+    pub scale: f32,
+    pub acceleration: [f32; 3],
+    pub across_a: f32,
+    pub jerk: [f32; 3],
+    pub across_b: f32,
+    pub snap: [f32; 3],
+    pub crossings: f32,
+    pub momentum: [f32; 3],
+    pub gamma: f32,
+    pub contraction: [f32; 3],
+    pub rounding: f32,
+    pub force: [f32; 3],
+    pub strays: f32,
+    pub spin: [f32; 3],
+    pub spin_slack: f32,
+    pub shape_x: [f32; 3],
+    pub strictness: f32,
+    pub shape_y: [f32; 3],
+    pub first_node: f32,
+    pub shape_z: [f32; 3],
+    pub nodes_per_time: f32,
+    pub turn_x: [f32; 3],
+    pub node_intervals: f32,
+    pub turn_y: [f32; 3],
+    pub node_texel: u32,
+    pub turn_z: [f32; 3],
+    pub unused: f32,
     pub light: [[f32; 4]; 3],
-    pub bounds: [[f32; 4]; 3],
-    pub ids: [u32; 4],
-    pub vertices: [u32; 4],
-    pub triangles: [u32; 4],
+    pub bounds: [Cap; 3],
+    pub order: u32,
+    pub object: u32,
+    pub first_seen: u32,
+    pub first_state: u32,
+    pub first_vertex: u32,
+    pub vertex_count: u32,
+    pub first_edge: u32,
+    pub edge_count: u32,
+    pub first_triangle: u32,
+    pub triangle_count: u32,
+    pub first_material: u32,
+    pub flags: u32,
+}
+
+/// `Cap` in WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
+pub struct Cap {
+    pub middle: [f32; 3],
+    pub rim: f32,
 }
 
 impl Instance {
     /// Whether none of its numbers is NaN or infinite.
     pub fn is_finite(&self) -> bool {
-        let rows =
-            [self.offset, self.axis, self.position, self.velocity, self.momentum, self.spin, self.nodes, self.drift, self.force, self.snap];
-        let matrices = [self.shape, self.turn, self.light, self.bounds];
-        rows.iter().chain(matrices.iter().flatten()).flatten().all(|x| x.is_finite())
+        // Those before its order, but for the one that counts texels.
+        let numbers: &[f32] = bytemuck::cast_slice(&bytemuck::bytes_of(self)[..offset_of!(Instance, order)]);
+        let texel = offset_of!(Instance, node_texel) / size_of::<f32>();
+        numbers.iter().enumerate().all(|(k, x)| k == texel || x.is_finite())
     }
 }
 
-/// Bits of `Instance::triangles[3]`, the `INSTANCE_*` of WGSL.
+/// Bits of `Instance::flags`, the `INSTANCE_*` of WGSL.
 pub mod placed {
     /// Both sides of every triangle are drawn.
     pub const TWO_SIDED: u32 = 1;

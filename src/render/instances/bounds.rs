@@ -11,12 +11,12 @@ use glam::{DVec3, DVec4};
 
 use crate::spacetime::light::Order;
 
+use crate::render::gpu::types::Cap;
 use crate::render::instances::view::{Extent, MARGIN, View};
 use crate::render::method::Method;
 
-/// Three caps of directions in camera axes, as `Instance.bounds` of WGSL. xyz: the middle. w: the square of the chord from the middle to
-/// the rim, positive if the image lies inside, negative if outside, 0 if anywhere.
-pub type ImageBounds = [[f32; 4]; 3];
+/// The caps of an [`Instance`](crate::render::gpu::types::Instance).
+pub type ImageBounds = [Cap; 3];
 
 /// By how many pixels of the screen's middle an image may be drawn beyond that of its ball; half a pixel is the error of patches.
 const MARGIN_PIXELS: f64 = 2.0;
@@ -50,7 +50,7 @@ impl View<'_> {
         let from_axis = position.cross(camera.position).length() / camera.radius();
         if radius < FAR * from_axis.min(position.length() - 1.0) {
             let seen = seen_cap(camera, extent.look, MARGIN * longer * extent.radius, MARGIN_PIXELS * self.pixel);
-            return [[0.0; 4], [0.0; 4], seen];
+            return [Cap::default(), Cap::default(), seen];
         }
         self.caps(position, radius, order, age).unwrap_or_default()
     }
@@ -96,15 +96,15 @@ impl View<'_> {
 ///
 /// The cap is d · middle ≥ cos radius for directions d. This is linear in the light's (d, −1), which the Lorentz matrix takes to the
 /// camera.
-fn seen_cap(camera: &Observer, middle: DVec3, radius: f64, margin: f64) -> [f32; 4] {
+fn seen_cap(camera: &Observer, middle: DVec3, radius: f64, margin: f64) -> Cap {
     if radius >= PI {
-        return [0.0; 4];
+        return Cap::default();
     }
     let row: DVec4 = camera.rain_from_camera().transpose() * middle.extend(radius.cos());
     let across = row.truncate();
     let middle = across.normalize();
     let radius = (row.w / across.length()).clamp(-1.0, 1.0).acos() + margin;
     let chord = |angle: f64| 4.0 * (0.5 * angle).sin().powi(2);
-    let (middle, w) = if radius <= FRAC_PI_2 { (middle, chord(radius)) } else { (-middle, -chord((PI - radius).max(0.0))) };
-    [middle.x as f32, middle.y as f32, middle.z as f32, w as f32]
+    let (middle, rim) = if radius <= FRAC_PI_2 { (middle, chord(radius)) } else { (-middle, -chord((PI - radius).max(0.0))) };
+    Cap { middle: middle.as_vec3().to_array(), rim: rim as f32 }
 }

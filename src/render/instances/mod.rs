@@ -8,7 +8,6 @@ pub mod visibility;
 
 use glam::{DMat3, DQuat, DVec3};
 
-use bounds::ImageBounds;
 pub use emission::departure;
 pub use view::View;
 
@@ -137,19 +136,19 @@ pub fn instances_of(view: &View, time: f64, object: &DrawnObject, orders: u32) -
             Motion::Held { attitude, .. } => (held(camera, position, attitude, object), None, 1.0),
             Motion::Flying(history) => flying(view, history, [emission, time], order, width, object),
         };
-        instance.ids = [u32::from(order.number()), object.id, 0, 0];
-        instance.axis = by_axis(camera, &instance, position, object.reach);
+        (instance.order, instance.object) = (u32::from(order.number()), object.id);
+        place_by_axis(&mut instance, camera, position, object.reach);
         // All points of the object, each where its light leaves, are within this distance of its centre.
         let whole = position.z.abs() > MARGIN * object.reach;
-        instance.snap[3] = if whole { plane_crossings(camera.position.z, position.z, order) as f32 } else { -1.0 };
+        instance.crossings = if whole { plane_crossings(camera.position.z, position.z, order) as f32 } else { -1.0 };
         // From within a body its inner side is seen. With straight light the direction in which light leaves does not agree with the shape
         // on the slice.
         let within = position.distance(camera.position) < object.reach;
         if within || !settings.method.bends() {
-            instance.triangles[3] |= TWO_SIDED;
+            instance.flags |= TWO_SIDED;
         }
         if branch == Branch::Minus {
-            instance.triangles[3] |= MINUS;
+            instance.flags |= MINUS;
         }
         // Near the hole, relative to the object's size, an image is stretched round the ring and shows more detail than its width tells.
         let is_near = order.number() == 1 && position.length() > NEAR_FROM && position.dot(camera.position) > 0.0;
@@ -178,14 +177,14 @@ pub fn instances_of(view: &View, time: f64, object: &DrawnObject, orders: u32) -
 /// Says how strictly the chords of an image `width` pixels wide are held to their curves, and whether it is a thin or a narrow one.
 fn set_strictness(instance: &mut Instance, view: &View, width: f64, order: Order) {
     if width < view.settings.thin_below && view.settings.min_width > 0.0 {
-        instance.triangles[3] |= THIN;
-        instance.axis[3] = THIN_STRICTNESS;
+        instance.flags |= THIN;
+        instance.strictness = THIN_STRICTNESS;
     } else {
-        instance.triangles[3] |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
-        instance.axis[3] = (SLIM_BELOW / width).clamp(1.0, MOST_SLIM) as f32;
+        instance.flags |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
+        instance.strictness = (SLIM_BELOW / width).clamp(1.0, MOST_SLIM) as f32;
     }
     if NEAR_PHOTON_SPHERE.contains(&view.camera.radius()) {
-        instance.axis[3] *= PHOTON_SPHERE_STRICTNESS;
+        instance.strictness *= PHOTON_SPHERE_STRICTNESS;
     }
 }
 
@@ -215,17 +214,13 @@ const NEAR_PHOTON_SPHERE: std::ops::RangeInclusive<f64> = 1.3..=1.8;
 /// Strictness there. With a budget of 0.3 px instead of 0.5 px, points of balls behind the hole were within half a pixel; with 0.5 px up to
 /// 0.59 px off.
 const PHOTON_SPHERE_STRICTNESS: f32 = 1.7;
-fn row(v: DVec3, w: f64) -> [f32; 4] {
-    [v.x as f32, v.y as f32, v.z as f32, w as f32]
+
+fn numbers(v: DVec3) -> [f32; 3] {
+    v.as_vec3().to_array()
 }
 
-fn columns(m: DMat3) -> [[f32; 4]; 3] {
-    [row(m.x_axis, 0.0), row(m.y_axis, 0.0), row(m.z_axis, 0.0)]
-}
-
-/// Columns with a vector in what is left of them.
-fn columns_and(m: DMat3, v: DVec3) -> [[f32; 4]; 3] {
-    [row(m.x_axis, v.x), row(m.y_axis, v.y), row(m.z_axis, v.z)]
+fn columns(m: DMat3) -> [[f32; 3]; 3] {
+    m.as_mat3().to_cols_array_2d()
 }
 
 fn light_rows(light: &Illumination) -> [[f32; 4]; 3] {
@@ -242,28 +237,33 @@ const BESIDE: f64 = 4.0;
 /// roundings of 2⁻²⁴ each.
 const ROUNDING: f64 = 4e-7;
 
-/// The row `axis` of an instance at `position`: its coordinates across the axis (x, y), by how much rounding may move a point of the object
-/// (z), in r_s, and a strictness of 1 (w).
-pub(super) fn by_axis(camera: &Observer, instance: &Instance, position: DVec3, reach: f64) -> [f32; 4] {
+/// Where an instance at `position` is across the axis of hole and camera, and by how much rounding may move a point of the object.
+pub(super) fn place_by_axis(instance: &mut Instance, camera: &Observer, position: DVec3, reach: f64) {
     let [_, a, b] = camera.axis_frame();
-    let [vx, vy, vz, moves] = instance.velocity.map(f64::from);
-    let speed = if moves == 0.0 { 0.0 } else { DVec3::new(vx, vy, vz).length() };
-    let rounding = ROUNDING * (reach + speed * f64::from(instance.offset[3]).abs());
+    let speed = if instance.scale == 0.0 { 0.0 } else { DVec3::from_array(instance.velocity.map(f64::from)).length() };
+    let rounding = ROUNDING * (reach + speed * f64::from(instance.delay).abs());
     let aside = BESIDE * rounding;
     // In a direction that nobody chooses.
-    [(position.dot(a) + 0.79 * aside) as f32, (position.dot(b) + 0.61 * aside) as f32, rounding as f32, 1.0]
+    (instance.across_a, instance.across_b) = ((position.dot(a) + 0.79 * aside) as f32, (position.dot(b) + 0.61 * aside) as f32);
+    (instance.rounding, instance.strictness) = (rounding as f32, 1.0);
 }
 
 fn held(camera: &Observer, position: DVec3, attitude: DQuat, object: &DrawnObject) -> Instance {
     let turn = DMat3::from_quat(attitude);
+    let [shape_x, shape_y, shape_z] = columns(turn * object.scale);
+    let [turn_x, turn_y, turn_z] = columns(turn);
     Instance {
-        offset: row(position - camera.position, 0.0),
-        position: row(position, 0.0),
-        momentum: [0.0, 0.0, 0.0, 1.0],
-        shape: columns(turn * object.scale),
-        turn: columns(turn),
+        offset: numbers(position - camera.position),
+        position: numbers(position),
+        gamma: 1.0,
+        shape_x,
+        shape_y,
+        shape_z,
+        turn_x,
+        turn_y,
+        turn_z,
         light: light_rows(&object.light),
-        triangles: [0, 0, 0, HELD],
+        flags: HELD,
         ..Instance::default()
     }
 }
@@ -316,14 +316,23 @@ fn flying(
     let still = !view.settings.light_delay;
     let p = sample.momentum;
     let momentum = if view.settings.method.bends() { sample.momentum } else { against_static(sample.position, sample.momentum) };
+    let [shape_x, shape_y, shape_z] = columns(contraction(p) * turn * object.scale);
+    let [turn_x, turn_y, turn_z] = columns(turn);
     let instance = Instance {
-        offset: row(sample.position - camera.position, time - emission),
-        position: row(sample.position, 0.0),
-        velocity: row(sample.velocity, if still { 0.0 } else { object.scale }),
-        momentum: row(momentum, gamma(momentum)),
-        shape: columns(contraction(p) * turn * object.scale),
-        drift: row(p, 0.0),
-        turn: columns(turn),
+        offset: numbers(sample.position - camera.position),
+        delay: (time - emission) as f32,
+        position: numbers(sample.position),
+        velocity: numbers(sample.velocity),
+        scale: if still { 0.0 } else { object.scale as f32 },
+        momentum: numbers(momentum),
+        gamma: gamma(momentum) as f32,
+        contraction: numbers(p),
+        shape_x,
+        shape_y,
+        shape_z,
+        turn_x,
+        turn_y,
+        turn_z,
         light: light_rows(&object.light),
         ..Instance::default()
     };
@@ -331,14 +340,18 @@ fn flying(
         return (instance, None, out.longer);
     }
     let swing = Swing::new(history, emission, object.reach, &Seen { span: out.span, width, pixel: view.pixel * out.path });
-    let [first, step] = swing.times.map(|time| time as f32);
+    let [first_node, step] = swing.times.map(|time| time as f32);
     let instance = Instance {
-        shape: columns_and(contraction(p) * turn * object.scale, swing.acceleration),
-        spin: row(swing.spin, swing.slack),
-        nodes: [first, step.recip(), (swing.nodes.len() - 1) as f32, 0.0],
-        force: row(swing.force, f64::from(u8::from(swing.strays))),
-        turn: columns_and(turn, swing.jerk),
-        snap: row(swing.snap, 0.0),
+        acceleration: numbers(swing.acceleration),
+        jerk: numbers(swing.jerk),
+        snap: numbers(swing.snap),
+        force: numbers(swing.force),
+        strays: f32::from(u8::from(swing.strays)),
+        spin: numbers(swing.spin),
+        spin_slack: swing.slack as f32,
+        first_node,
+        nodes_per_time: step.recip(),
+        node_intervals: (swing.nodes.len() - 1) as f32,
         ..instance
     };
     (instance, Some(swing), out.longer)
@@ -346,11 +359,9 @@ fn flying(
 
 /// Leaves of an instance's motion what has numbers for sure.
 fn straight_on(instance: &mut Instance) {
-    for row in instance.shape.iter_mut().chain(&mut instance.turn) {
-        row[3] = 0.0;
-    }
-    (instance.spin, instance.force, instance.snap) = ([0.0; 4], [0.0; 4], [0.0, 0.0, 0.0, instance.snap[3]]);
-    (instance.nodes, instance.bounds) = ([0.0, 1.0, 1.0, 0.0], ImageBounds::default());
+    (instance.acceleration, instance.jerk, instance.snap, instance.force) = Default::default();
+    (instance.spin, instance.spin_slack, instance.strays, instance.bounds) = Default::default();
+    (instance.first_node, instance.nodes_per_time, instance.node_intervals) = (0.0, 1.0, 1.0);
 }
 
 /// The momentum relative to a static observer, which takes the place of the rain frame where light is drawn straight. Inside the horizon

@@ -181,12 +181,12 @@ pub type Swung = (Vec3, Vec3, Quat);
 /// Where a point of a body (model's unit, body axes) is `s` r_s/c after T₀. Twin of `swing_at` in shaders/instances/recorded.wgsl.
 pub fn swing_at(instance: &Instance, nodes: &[Node], body: Vec3, s: f32) -> Swung {
     let xyz = |row: [f32; 4]| Vec3::new(row[0], row[1], row[2]);
-    let scale = instance.velocity[3];
+    let scale = instance.scale;
     if scale == 0.0 {
-        let [x, y, z] = instance.shape.map(xyz);
+        let [x, y, z] = [instance.shape_x, instance.shape_y, instance.shape_z].map(Vec3::from_array);
         return (x * body.x + y * body.y + z * body.z, Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 0.0, 0.0));
     }
-    let [first, per_time, last, _] = instance.nodes;
+    let (first, per_time, last) = (instance.first_node, instance.nodes_per_time, instance.node_intervals);
     let at = (s - first) * per_time;
     let x = at.clamp(0.0, last);
     let index = x.floor().min(last - 1.0);
@@ -198,7 +198,7 @@ pub fn swing_at(instance: &Instance, nodes: &[Node], body: Vec3, s: f32) -> Swun
     let rest = q * (body * scale);
     let rate = change.truncate() * mean.w - mean.truncate() * change.w - change.truncate().cross(mean.truncate());
     let turning = (rate * (2.0 / mean.length_squared())).cross(rest) * (per_time * inside);
-    let strays = if instance.force[3] != 0.0 { 1.0 } else { 0.0 };
+    let strays = if instance.strays != 0.0 { 1.0 } else { 0.0 };
     let mut swung = carried(instance, rest, turning, s, xyz(pushed_a).lerp(xyz(pushed_b), share) * strays);
     if strays > 0.0 {
         let [a, b] = [aside_a, aside_b].map(xyz);
@@ -210,12 +210,12 @@ pub fn swing_at(instance: &Instance, nodes: &[Node], body: Vec3, s: f32) -> Swun
 
 /// Twin of `carried` in shaders/instances/swing.wgsl: offset and velocity.
 fn carried(instance: &Instance, rest: Vec3, turning: Vec3, s: f32, pushed: Vec3) -> (Vec3, Vec3) {
-    let xyz = |row: [f32; 4]| Vec3::new(row[0], row[1], row[2]);
-    let last = |m: [[f32; 4]; 3]| Vec3::new(m[0][3], m[1][3], m[2][3]);
-    let (velocity, acceleration, jerk, snap) = (xyz(instance.velocity), last(instance.shape), last(instance.turn), xyz(instance.snap));
+    let [velocity, acceleration, jerk, snap, contraction, force] =
+        [instance.velocity, instance.acceleration, instance.jerk, instance.snap, instance.contraction, instance.force]
+            .map(Vec3::from_array);
     let way = (velocity + (acceleration + (jerk + snap * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s;
     let velocity = velocity + (acceleration + (jerk + snap * (s / 3.0)) * (0.5 * s)) * s;
-    let p = xyz(instance.drift) + xyz(instance.force) * s + pushed;
+    let p = contraction + force * s + pushed;
     let gamma = (1.0 + p.length_squared()).sqrt();
     let contracted = |v: Vec3| v - p * (p.dot(v) / (gamma * (1.0 + gamma)));
     (way + contracted(rest), velocity + contracted(turning))

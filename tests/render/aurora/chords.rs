@@ -109,7 +109,7 @@ fn hold(renderer: &mut Renderer, planet: &Planet, camera: Observer, config: &Gam
     let per_image = own.len() / frame.instances.len();
     let (mut off, mut by_chords) = (Vec::new(), Vec::new());
     for (number, (own, fine)) in own.iter().zip(&fine).enumerate() {
-        let (kind, image) = (number % 2, frame.instances[number / per_image].ids[0]);
+        let (kind, image) = (number % 2, frame.instances[number / per_image].order);
         if order.is_some_and(|order| order != image) {
             continue;
         }

@@ -147,8 +147,8 @@ fn what_leaves_strokes_is_never_left_out() {
                 let alone = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: Some(only(&all, image)), settings: all_settings };
                 renderer.picture(&alone, false).unwrap();
                 let strokes: u32 = renderer.aurora_strokes().unwrap().unwrap().iter().sum();
-                let is_kept = kept.as_ref().is_some_and(|kept| kept.instances.iter().any(|other| other.ids[0] == instance.ids[0]));
-                let order = instance.ids[0];
+                let is_kept = kept.as_ref().is_some_and(|kept| kept.instances.iter().any(|other| other.order == instance.order));
+                let order = instance.order;
                 assert!(is_kept || strokes == 0, "{name} {number}: order {order} left out, of {strokes} strokes; {eye}, {look}, {fov}");
                 *if !is_kept {
                     &mut left_out

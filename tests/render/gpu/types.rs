@@ -17,7 +17,7 @@ use lensrunner::render::gpu::library::{Library, Values, Worldlines};
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::gpu::targets::TILE;
 use lensrunner::render::gpu::types::{
-    self, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, SeenVertex, Star,
+    self, Cap, Capacity, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, SeenVertex, Star,
 };
 use lensrunner::render::gpu::types::{flags, placed};
 use lensrunner::render::method::Method;
@@ -27,7 +27,15 @@ use lensrunner::render::models::outside;
 use lensrunner::render::post_process::flashes;
 use wgpu::naga::{Expression, Literal, Module};
 
-use crate::layout::{fields, fields_of, struct_of};
+use crate::layout::{Numbers, fields, fields_of, struct_of};
+
+impl Numbers for Cap {
+    const FLOAT: bool = true;
+}
+
+impl Numbers for Capacity {
+    const FLOAT: bool = false;
+}
 
 static LIBRARY: LazyLock<Mutex<Library>> =
     LazyLock::new(|| Mutex::new(Library::new(Worldlines::Bodies, Method::Table, &[]).unwrap_or_else(|error| panic!("{error}"))));
@@ -53,15 +61,22 @@ fn structs_have_one_layout_in_both_languages() {
     let cases = [
         (
             "gpu::types::Frame",
-            fields!(Frame: camera_from_rain, rain_from_camera, radial, side_a, side_b, projection, size, light, exposure, switches,
-            sky_x, sky_y, sky_z, capacity, fill, unmetered, disk, rise),
+            fields!(Frame: camera_from_rain, rain_from_camera, outward, camera_radius, side_a, least_width, side_b, river_speed, focal, near,
+            time, size, pixel, error_budget, exposure_bias, star_brightness, sky_brightness, bloom, least_exposure, greatest_exposure,
+            adaptation, shadow_edge, flags, halvings, star_sigma, faintest_star, capacity, least_fill, greatest_fill, last_exposure,
+            exposure_known, unmetered_middle, unmetered_radius, exposure_key, disk_indices, exposure_key_without_disk, most_rise,
+            rise_per_luminance, unused),
         ),
+        ("gpu::types::Capacity", fields!(Capacity: vertices, indices, work, thin)),
         (
             "gpu::types::Instance",
-            fields!(Instance: offset, axis, position, velocity, momentum, shape ["shape_x", "shape_y", "shape_z"], spin, nodes,
-            drift, force, turn ["turn_x", "turn_y", "turn_z"], snap, light ["light_red", "light_green", "light_blue"],
-            bounds ["bound_high", "bound_low", "bound_look"], ids, vertices, triangles),
+            fields!(Instance: offset, delay, position, engines_off, velocity, scale, acceleration, across_a, jerk, across_b, snap, crossings,
+            momentum, gamma, contraction, rounding, force, strays, spin, spin_slack, shape_x, strictness, shape_y, first_node, shape_z,
+            nodes_per_time, turn_x, node_intervals, turn_y, node_texel, turn_z, unused, light ["light_red", "light_green", "light_blue"],
+            bounds ["bound_high", "bound_low", "bound_look"], order, object, first_seen, first_state, first_vertex, vertex_count, first_edge,
+            edge_count, first_triangle, triangle_count, first_material, flags),
         ),
+        ("gpu::types::Cap", fields!(Cap: middle, rim)),
         ("gpu::types::ModelVertex", fields!(ModelVertex: position, normal, info)),
         ("gpu::types::ModelTriangle", fields!(ModelTriangle: vertices, edges)),
         ("gpu::types::Chunk", fields!(Chunk: instance, first)),

@@ -6,6 +6,7 @@ use lensrunner::lensing::Slice;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::gpu::shaders::Pass;
+use lensrunner::render::gpu::types::Cap;
 use lensrunner::render::instances::{Motion, Placed, View, instances_of};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
@@ -43,7 +44,7 @@ fn what_is_out_of_bounds_is_left_out_and_counted() {
     let places = [[0.0, 0.0, -9.0], [0.3, 0.2, -9.0], [4.0, 0.0, -9.0], [-5.0, 0.0, 0.0], [2.0, -1.0, 6.0]].map(DVec3::from_array);
     for here in places {
         let placed = ball(&bench, here, &settings);
-        assert!(placed.iter().all(|placed| placed.instance.bounds.iter().any(|cap| cap[3] != 0.0)));
+        assert!(placed.iter().all(|placed| placed.instance.bounds.iter().any(|cap| cap.rim != 0.0)));
         let mut free = placed.clone();
         free.iter_mut().for_each(|placed| placed.instance.bounds = Default::default());
         let (shown, outside, picture) = drawn(&mut bench, placed, settings);
@@ -65,7 +66,7 @@ fn what_is_out_of_bounds_is_left_out_and_counted() {
     let mut placed = ball(&bench, places[0], &settings);
     for placed in &mut placed {
         let [high, low, _] = placed.instance.bounds;
-        placed.instance.bounds = [[high[0], high[1], high[2], high[3] * 1.5], low, [0.0; 4]];
+        placed.instance.bounds = [Cap { rim: 1.5 * high.rim, ..high }, low, Cap::default()];
     }
     assert!(drawn(&mut bench, placed, settings).1 > 0);
 }

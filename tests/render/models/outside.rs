@@ -80,7 +80,7 @@ fn nothing_that_is_seen_is_left_out() {
         let mut seen = |both: bool| {
             let mut frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &settings);
             for placed in &mut frame.placed {
-                placed.instance.triangles[3] |= if both { TWO_SIDED } else { 0 };
+                placed.instance.flags |= if both { TWO_SIDED } else { 0 };
             }
             let picture = renderer.picture(&frame, true).unwrap();
             let counters = readback::buffer(&GPU, renderer.geometry().counters()).unwrap();

@@ -210,8 +210,8 @@ impl AuroraAnimation {
         let mut widest: f64 = 0.0;
         for placed in instances_of(view, time, &object, orders) {
             let instance = placed.instance;
-            let Some(order) = Order::new(instance.ids[0] as u8) else { continue };
-            let position = DVec3::from_array([0, 1, 2].map(|k| f64::from(instance.position[k])));
+            let Some(order) = Order::new(instance.order as u8) else { continue };
+            let position = DVec3::from_array(instance.position.map(f64::from));
             let extent = view.extent(position, object.reach, order, 0.0);
             // Light of higher orders comes round the hole: from there even a near planet is far away.
             let near = distance < 2.0 * object.reach && order.number() == 1;
@@ -267,7 +267,7 @@ impl AuroraAnimation {
         if curtains.both {
             flags |= BOTH_POLES;
         }
-        let orders: Vec<Order> = frame.instances.iter().filter_map(|instance| Order::new(instance.ids[0] as u8)).collect();
+        let orders: Vec<Order> = frame.instances.iter().filter_map(|instance| Order::new(instance.order as u8)).collect();
         let bend = ChordInputs {
             view: globe.view,
             time: globe.time,
