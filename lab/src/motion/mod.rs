@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 use crate::chart::{ChartError, Output, Provenance, Sheet, quantile};
 use crate::compare::flight::hands::PACES;

@@ -154,7 +154,7 @@ fn the_swing_is_the_same_in_both_languages() {
     let number = |k: usize| if k == 14 { format!("bitcast<u32>({}.w)", row(k)) } else { format!("{}.w", row(k)) };
     let vectors = (0..16).map(|k| format!("{}.xyz, {}", row(k), number(k)));
     let caps = (19..22).map(|k| format!("Cap({0}.xyz, {0}.w)", row(k)));
-    let members: Vec<String> = vectors.chain((16..19).map(row)).chain(caps).chain(["0u".to_owned(); 12].into_iter()).collect();
+    let members: Vec<String> = vectors.chain((16..19).map(row)).chain(caps).chain(std::iter::repeat_n("0u".to_owned(), 12)).collect();
     let body = format!(
         "#import lensrunner::chosen::worldlines::{{node_place, swing_between}}
 #import lensrunner::gpu::types::{{Cap, Instance}}
