@@ -18,16 +18,16 @@ fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     let place_in_disk = texture_point(found);
     let r = max(place_in_disk.y, 1.0);
     let gas = radial_gas(r);
-    let ring = turning[bitcast<u32>(found.surface.z)];
+    let ring = turning[found.instance];
     // The gas is that of the place where the light left.
-    let azimuth = place_in_disk.x + ring.y + ring.x * (frame.camera_radius - found.apparent.w);
+    let azimuth = place_in_disk.x + ring.y + ring.x * (frame.camera_radius - found.path);
     let turn = 6.28318531 * azimuth;
-    let outward = dot(found.leaving.xyz, vec3<f32>(cos(turn), sin(turn), 0.0)) > 0.0;
-    let ratio = gas_ratio(found.apparent.xyz, r, outward, gas);
+    let outward = dot(found.leaving, vec3<f32>(cos(turn), sin(turn), 0.0)) > 0.0;
+    let ratio = gas_ratio(found.apparent, r, outward, gas);
     let light = gas_light(gas.a.x, log(ratio.x));
-    let depth = gas.a.y * disk_slant(ratio.y, found.apparent.w, gas.b.y);
+    let depth = gas.a.y * disk_slant(ratio.y, found.path, gas.b.y);
     let turns = azimuth - gas.b.x / 6.28318531;
-    return gas_at(clip_position(found.apparent.xyz), turns, gas.b.z, found.apparent.w, depth, light, vec2<f32>(0.0, 1e6), ratio.y);
+    return gas_at(clip_position(found.apparent), turns, gas.b.z, found.path, depth, light, vec2<f32>(0.0, 1e6), ratio.y);
 }
 
 @fragment

@@ -30,8 +30,9 @@ fn table_place(texel: u32) -> vec2<u32> {
 fn model_vertex(number: u32) -> ModelVertex {
     let normal = textureLoad(vertex_table, table_place(3u * number + 1u), 0);
     let position = textureLoad(vertex_table, table_place(3u * number), 0);
-    return ModelVertex(bitcast<vec4<f32>>(position), bitcast<vec4<f32>>(normal),
-        textureLoad(vertex_table, table_place(3u * number + 2u), 0));
+    let material = textureLoad(vertex_table, table_place(3u * number + 2u), 0).x;
+    return ModelVertex(bitcast<vec3<f32>>(position.xyz), bitcast<f32>(position.w), bitcast<vec3<f32>>(normal.xyz), bitcast<f32>(normal.w),
+        material, 0u, 0u, 0u);
 }
 
 fn model_position(number: u32) -> vec3<f32> {
@@ -44,8 +45,9 @@ fn model_edge(number: u32) -> vec4<u32> {
 }
 
 fn model_triangle(number: u32) -> ModelTriangle {
-    return ModelTriangle(textureLoad(triangle_table, table_place(2u * number), 0),
-        textureLoad(triangle_table, table_place(2u * number + 1u), 0));
+    let corners = textureLoad(triangle_table, table_place(2u * number), 0);
+    let edges = textureLoad(triangle_table, table_place(2u * number + 1u), 0);
+    return ModelTriangle(corners.xyz, corners.w, edges.xyz, edges.w);
 }
 
 fn chunk_of(number: u32) -> Chunk {

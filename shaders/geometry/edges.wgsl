@@ -37,7 +37,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     }
     let from_seen = seen[instance.first_seen + edge.x];
     let to_seen = seen[instance.first_seen + edge.y];
-    let cut = cut_by_axis(instance, a, b, from_seen.apparent.xyz);
+    let cut = cut_by_axis(instance, a, b, from_seen.apparent);
     if cut >= 0.0 {
         states[slot] = vec4<f32>(bitcast<f32>(1u), bitcast<f32>(EDGE_CUT), cut, 0.0);
         return;
@@ -47,13 +47,13 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     ends.b = b;
     ends.body_a = model_position(instance.first_vertex + edge.x);
     ends.body_b = model_position(instance.first_vertex + edge.y);
-    ends.apparent_a = from_seen.apparent.xyz;
-    ends.apparent_b = to_seen.apparent.xyz;
-    ends.radius = from_seen.leaving.w;
+    ends.apparent_a = from_seen.apparent;
+    ends.apparent_b = to_seen.apparent;
+    ends.radius = from_seen.radius;
     let alone = edge.z == ALONE;
     ends.limb = is_rim(instance, alone, ends.body_a, ends.body_b)
-        || (!alone && MAY_FOLD && on_limb(instance, edge, before_turning(instance, from_seen.leaving.xyz, from_seen.apparent.w),
-            before_turning(instance, to_seen.leaving.xyz, to_seen.apparent.w), offset_of(a.xyz)));
+        || (!alone && MAY_FOLD && on_limb(instance, edge, before_turning(instance, from_seen.leaving, from_seen.path),
+            before_turning(instance, to_seen.leaving, to_seen.path), offset_of(a.xyz)));
     let division = divide(instance, ends);
     states[slot] = vec4<f32>(bitcast<f32>(division.level), bitcast<f32>(select(0u, EDGE_LIMB, ends.limb)), 0.0, division.error);
 }

@@ -73,9 +73,9 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
     if !is_thin(instance) {
         return false;
     }
-    let c0 = clip_position(seen[i0].apparent.xyz);
-    let c1 = clip_position(seen[i1].apparent.xyz);
-    let c2 = clip_position(seen[i2].apparent.xyz);
+    let c0 = clip_position(seen[i0].apparent);
+    let c1 = clip_position(seen[i1].apparent);
+    let c2 = clip_position(seen[i2].apparent);
     let near = frame.near;
     if c0.w < near || c1.w < near || c2.w < near {
         return false;
@@ -89,7 +89,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
         return false;
     }
     // The sum of coverages is right only if each line of sight meets one layer, so backs of closed bodies are left out.
-    let leaving = before_turning(instance, seen[i0].leaving.xyz + seen[i1].leaving.xyz + seen[i2].leaving.xyz, seen[i0].apparent.w);
+    let leaving = before_turning(instance, seen[i0].leaving + seen[i1].leaving + seen[i2].leaving, seen[i0].path);
     let from_behind = dot(facing.normal, leaving) < 0.0;
     if facing.closed && from_behind {
         return true;
@@ -122,15 +122,15 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
         return false;
     }
     let centre = (p0 + p1 + p2) / 3.0;
-    let order = f32(instance.order);
-    let share = share_across(instance, vec3<f32>(seen[i0].fan.w, seen[i1].fan.w, seen[i2].fan.w));
+    let order = instance.order;
+    let share = share_across(instance, vec3<f32>(seen[i0].height, seen[i1].height, seen[i2].height));
     let scale = 2.0 / frame.size;
     thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, stretch) * scale * c0.w, c0.zw),
-        vec4<f32>(bitcast<f32>(i0), coverage, order, share));
+        i0, coverage, order, share);
     thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, stretch) * scale * c1.w, c1.zw),
-        vec4<f32>(bitcast<f32>(i1), coverage, order, share));
+        i1, coverage, order, share);
     thin[slot + 2u] = ThinVertex(vec4<f32>(grown(p2, centre, direction, stretch) * scale * c2.w, c2.zw),
-        vec4<f32>(bitcast<f32>(i2), coverage, order, share));
+        i2, coverage, order, share);
     return true;
 }
 
@@ -161,7 +161,7 @@ fn room_for(coarse: bool) -> Capacity {
 /// Takes room for the blocks of a piece, so that a full buffer is noticed while a coarser way is left. False if there is less room than
 /// `most` allows.
 fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: Capacity) -> bool {
-    let fan = piece.what.z != PIECE_TRIANGLE;
+    let fan = piece.kind != PIECE_TRIANGLE;
     var row = 0u;
     loop {
         if row >= rows { break; }
@@ -187,18 +187,18 @@ fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: C
             if slot >= frame.capacity.work || first_index + index_count > frame.capacity.indices {
                 // Other threads took the rest meanwhile. What was taken is left empty, so that no stale data is drawn.
                 if slot < frame.capacity.work {
-                    work[slot].place = vec4<u32>(0u);
+                    work[slot].vertex_count = 0u;
+                    work[slot].triangle_count = 0u;
                 }
                 for (var i = first_index; i < min(first_index + index_count, frame.capacity.indices); i++) {
                     indices[i] = 0u;
                 }
                 return false;
             }
-            work[slot] = WorkItem(piece, levels, vec4<u32>(rows, columns, row, column),
-                vec4<u32>(first_vertex, first_index, vertex_count, index_count / 3u));
+            work[slot] = WorkItem(piece, levels, rows, columns, row, column, first_vertex, first_index, vertex_count, index_count / 3u);
             // A thread of the mesh stage finds the item of its vertex by this.
             for (var i = 0u; i < vertex_count; i++) {
-                seen[first_vertex + i].surface.x = bitcast<f32>(slot);
+                seen[first_vertex + i].instance = slot;
             }
             column += BLOCK;
         }
@@ -212,8 +212,11 @@ fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: C
 struct Handed {
     piece: Piece,
     levels: vec4<u32>,
-    /// Rows and columns of the grid; z: HANDED_*.
-    grid: vec4<u32>,
+    /// Of the grid.
+    rows: u32,
+    columns: u32,
+    /// HANDED_*.
+    kind: u32,
 }
 
 /// To be split further.
@@ -227,13 +230,13 @@ var<private> handed: array<Handed, 4>;
 var<private> handed_count: u32 = 0u;
 
 fn hand(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, kind: u32) {
-    handed[min(handed_count, 3u)] = Handed(piece, levels, vec4<u32>(rows, columns, kind, 0u));
+    handed[min(handed_count, 3u)] = Handed(piece, levels, rows, columns, kind);
     handed_count += 1u;
 }
 
 /// For the queue that the next pass of splitting reads.
 fn emit_piece(instance: u32, triangle: u32, kind: u32, depth: u32, c0: vec3<f32>, c1: vec3<f32>, c2: vec3<f32>) {
-    let piece = Piece(vec4<u32>(instance, triangle, kind, depth), vec4<f32>(c0, 0.0), vec4<f32>(c1, 0.0), vec4<f32>(c2, 0.0));
+    let piece = Piece(instance, triangle, kind, depth, c0, c1, c2);
     hand(piece, vec4<u32>(1u), 1u, 1u, HANDED_PIECE);
 }
 
@@ -244,8 +247,8 @@ fn emit_work(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32) {
 
 /// The triangle of the model as it is.
 fn emit_whole(instance: u32, triangle: u32) {
-    let none = vec4<f32>(0.0);
-    hand(Piece(vec4<u32>(instance, triangle, PIECE_TRIANGLE, 0u), none, none, none), vec4<u32>(1u), 1u, 1u, HANDED_TRIANGLE);
+    let none = vec3<f32>(0.0);
+    hand(Piece(instance, triangle, PIECE_TRIANGLE, 0u, none, none, none), vec4<u32>(1u), 1u, 1u, HANDED_TRIANGLE);
 }
 
 /// So many times the room for work items, pieces may be split in a frame: halving makes as many pieces as there are parts in the end, and
@@ -258,7 +261,7 @@ fn hand_over(queue: u32) {
     for (var k = 0u; k < min(handed_count, 4u); k++) {
         let item = handed[k];
         var piece = item.piece;
-        let kind = item.grid.z;
+        let kind = item.kind;
         var done = false;
         if kind == HANDED_PIECE {
             let slot = atomicAdd(&counters.pieces[queue], 1u);
@@ -269,7 +272,7 @@ fn hand_over(queue: u32) {
                 atomicSub(&counters.pieces[queue], 1u);
             }
         }
-        let whole = piece.what.z != PIECE_FAN && piece.what.w == 0u;
+        let whole = piece.kind != PIECE_FAN && piece.depth == 0u;
         // First as asked, then without subdivision.
         for (var attempt = select(1u, 0u, kind == HANDED_WORK); attempt < 2u; attempt++) {
             if done || kind == HANDED_TRIANGLE {
@@ -281,17 +284,17 @@ fn hand_over(queue: u32) {
                 if whole {
                     break;
                 }
-                piece.what.z = select(piece.what.z, PIECE_TRIANGLE, piece.what.z == PIECE_STRIP);
+                piece.kind = select(piece.kind, PIECE_TRIANGLE, piece.kind == PIECE_STRIP);
             }
             let room = room_for(coarse);
-            let size = select(item.grid.xy, vec2<u32>(1u), coarse);
+            let size = select(vec2<u32>(item.rows, item.columns), vec2<u32>(1u), coarse);
             done = emit_blocks(piece, select(item.levels, vec4<u32>(1u), coarse), size.x, size.y, room);
         }
         if !done {
-            let instance = instance_at(piece.what.x);
-            let triangle = model_triangle(piece.what.y);
-            let corners = triangle.vertices.xyz + vec3<u32>(instance.first_seen);
-            emit_triangle(corners.x, corners.y, corners.z, instance, facing_of(instance, triangle, instance.offset), triangle.edges.w);
+            let instance = instance_at(piece.instance);
+            let triangle = model_triangle(piece.triangle);
+            let corners = triangle.vertices + vec3<u32>(instance.first_seen);
+            emit_triangle(corners.x, corners.y, corners.z, instance, facing_of(instance, triangle, instance.offset), triangle.seen_from);
         }
     }
 }

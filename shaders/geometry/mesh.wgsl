@@ -54,27 +54,28 @@ fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
         return;
     }
     // Written by the stage that made the item.
-    let item = work[bitcast<u32>(seen[index].surface.x)];
-    let instance = instance_at(item.piece.what.x);
-    let triangle = model_triangle(item.piece.what.y);
-    let k = index - item.place.x;
+    let item = work[seen[index].instance];
+    let instance = instance_at(item.piece.instance);
+    let triangle = model_triangle(item.piece.triangle);
+    let k = index - item.first_vertex;
     var corner: vec3<f32>;
     var s = 1.0;
-    if item.piece.what.z == PIECE_FAN {
-        let w = min(BLOCK, item.grid.y - item.grid.w);
-        let point = fan_point(item, item.grid.z + k / (w + 1u), item.grid.w + k % (w + 1u));
+    if item.piece.kind == PIECE_FAN {
+        let w = min(BLOCK, item.columns - item.first_column);
+        let point = fan_point(item, item.first_row + k / (w + 1u), item.first_column + k % (w + 1u));
         corner = point.xyz;
         s = point.w;
-    } else if item.piece.what.z == PIECE_STRIP {
-        let w = min(BLOCK, item.grid.y - item.grid.w);
-        corner = strip_point(item, k / (w + 1u), item.grid.w + k % (w + 1u));
+    } else if item.piece.kind == PIECE_STRIP {
+        let w = min(BLOCK, item.columns - item.first_column);
+        corner = strip_point(item, k / (w + 1u), item.first_column + k % (w + 1u));
     } else {
         corner = triangle_point(item, k);
     }
     fan_place = s;
     var vertex = vertex_at(item, instance, triangle, corner, s);
-    if item.piece.what.z == PIECE_FAN {
-        vertex.fan = vec4<f32>(texture_coordinates(instance, triangle, item.piece.corner_a.xyz), fan_place, vertex.fan.w);
+    if item.piece.kind == PIECE_FAN {
+        vertex.axis_uv = texture_coordinates(instance, triangle, item.piece.corner_a);
+        vertex.from_axis = fan_place;
     }
     seen[index] = vertex;
 }
@@ -87,17 +88,16 @@ fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
     if index >= min(atomicLoad(&counters.work), frame.capacity.work) {
         return;
     }
-    let place = work[index].place;
-    let what = work[index].piece.what;
-    let grid = work[index].grid;
-    let instance = instance_at(what.x);
-    let facing = facing_of(instance, model_triangle(what.y), instance.offset);
-    let seen_from = model_triangle(what.y).edges.w;
-    let w = min(BLOCK, grid.y - grid.w);
-    let first = place.x;
-    for (var k = lane; k < place.w; k += 32u) {
+    let instance = instance_at(work[index].piece.instance);
+    let triangle = model_triangle(work[index].piece.triangle);
+    let facing = facing_of(instance, triangle, instance.offset);
+    let kind = work[index].piece.kind;
+    let w = min(BLOCK, work[index].columns - work[index].first_column);
+    let first = work[index].first_vertex;
+    let first_index = work[index].first_index;
+    for (var k = lane; k < work[index].triangle_count; k += 32u) {
         var a: u32; var b: u32; var c: u32;
-        if what.z != PIECE_TRIANGLE {
+        if kind != PIECE_TRIANGLE {
             let cell = k / 2u;
             let row = cell / w;
             let column = cell % w;
@@ -120,9 +120,9 @@ fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
                 a = upper + column; b = lower + column + 1u; c = upper + column + 1u;
             }
         }
-        let slot = place.y + 3u * k;
+        let slot = first_index + 3u * k;
         // Every triangle has its place in the index buffer; one that is thin, unseen or out of bounds leaves a point there.
-        if unseen(a) || unseen(b) || unseen(c) || leaves_bounds(instance, a, b, c) || emit_thin(a, b, c, instance, facing, seen_from) {
+        if unseen(a) || unseen(b) || unseen(c) || leaves_bounds(instance, a, b, c) || emit_thin(a, b, c, instance, facing, triangle.seen_from) {
             b = a;
             c = a;
         }
@@ -133,17 +133,17 @@ fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
 }
 
 fn unseen(vertex: u32) -> bool {
-    return seen[vertex].apparent.w <= 0.0;
+    return seen[vertex].path <= 0.0;
 }
 
 /// Vertex k of a triangle's grid, barycentric: row i counts from corner 0 to the opposite edge, column j along that edge.
 fn triangle_point(item: WorkItem, k: u32) -> vec3<f32> {
-    let n = item.grid.x;
+    let n = item.rows;
     let i = triangle_row(k);
     let j = k - i * (i + 1u) / 2u;
-    let c0 = item.piece.corner_a.xyz;
-    let c1 = item.piece.corner_b.xyz;
-    let c2 = item.piece.corner_c.xyz;
+    let c0 = item.piece.corner_a;
+    let c1 = item.piece.corner_b;
+    let c2 = item.piece.corner_c;
     if i == 0u {
         return c0;
     } else if i == n && j == 0u {
@@ -177,10 +177,10 @@ fn side_point(a: vec3<f32>, b: vec3<f32>, i: u32, n: u32, level: u32) -> vec3<f3
 /// A vertex of a fan's grid: the point of its outer edge, barycentric, and w: how far from the axis towards it. Each side has its own
 /// level: the arc at the axis, the outer edge, the two radial sides.
 fn fan_point(item: WorkItem, row: u32, column: u32) -> vec4<f32> {
-    let c1 = item.piece.corner_b.xyz;
-    let c2 = item.piece.corner_c.xyz;
-    let rows = item.grid.x;
-    let columns = item.grid.y;
+    let c1 = item.piece.corner_b;
+    let c2 = item.piece.corner_c;
+    let rows = item.rows;
+    let columns = item.columns;
     var s = f32(row) / f32(rows);
     if column == 0u {
         s = snapped(row, rows, item.levels.z);
@@ -198,10 +198,10 @@ fn fan_point(item: WorkItem, row: u32, column: u32) -> vec4<f32> {
 
 /// A vertex of a strip, barycentric: row 1 runs along the edge opposite corner 0, row 0 along the other two.
 fn strip_point(item: WorkItem, row: u32, column: u32) -> vec3<f32> {
-    let c0 = item.piece.corner_a.xyz;
-    let c1 = item.piece.corner_b.xyz;
-    let c2 = item.piece.corner_c.xyz;
-    let columns = item.grid.y;
+    let c0 = item.piece.corner_a;
+    let c1 = item.piece.corner_b;
+    let c2 = item.piece.corner_c;
+    let columns = item.columns;
     if row == 1u {
         return side_point(c1, c2, column, columns, item.levels.x);
     }
@@ -219,8 +219,8 @@ fn texture_coordinates(instance: Instance, triangle: ModelTriangle, corner: vec3
     let v0 = model_vertex(first + triangle.vertices.x);
     let v1 = model_vertex(first + triangle.vertices.y);
     let v2 = model_vertex(first + triangle.vertices.z);
-    return vec2<f32>(v0.position.w, v0.normal.w) * corner.x + vec2<f32>(v1.position.w, v1.normal.w) * corner.y
-        + vec2<f32>(v2.position.w, v2.normal.w) * corner.z;
+    return vec2<f32>(v0.u, v0.v) * corner.x + vec2<f32>(v1.u, v1.v) * corner.y
+        + vec2<f32>(v2.u, v2.v) * corner.z;
 }
 
 /// The seen vertex of a point of a model triangle (s = 1), or of a point between a fan's axis and that point (s < 1). A corner of the model
@@ -241,7 +241,7 @@ fn vertex_at(item: WorkItem, instance: Instance, triangle: ModelTriangle, point:
     for (var k = select(0u, 1u, s == 1.0); k < count; k++) {
         var query = query_body(body);
         if k == 0u {
-            query = query_body(body_point(instance, triangle, item.piece.corner_a.xyz));
+            query = query_body(body_point(instance, triangle, item.piece.corner_a));
         } else if k == 2u {
             query = query_fan(apex, found.by_axis, s);
             query.height = mix(apex_height, dot(found.position, frame.outward), s);
@@ -265,17 +265,18 @@ fn vertex_at(item: WorkItem, instance: Instance, triangle: ModelTriangle, point:
             count = select(2u, 3u, found.ray.valid && here.across < past_axis(instance, here, found.ray.apparent));
         }
     }
-    let corner = mix(item.piece.corner_a.xyz, point, vec3<f32>(s));
+    let corner = mix(item.piece.corner_a, point, vec3<f32>(s));
     let first = instance.first_vertex;
     let v0 = model_vertex(first + triangle.vertices.x);
     let v1 = model_vertex(first + triangle.vertices.y);
     let v2 = model_vertex(first + triangle.vertices.z);
     let normal = v0.normal * corner.x + v1.normal * corner.y + v2.normal * corner.z;
-    var vertex = seen_vertex(instance, item.piece.what.x, found, attitude, normal.xyz,
-        texture_coordinates(instance, triangle, point), v0.info.x + instance.first_material);
+    var vertex = seen_vertex(instance, item.piece.instance, found, attitude, normal,
+        texture_coordinates(instance, triangle, point), v0.material + instance.first_material);
     if !found.ray.valid || !finite_vector(found.ray.apparent) {
         atomicAdd(&counters.caught, 1u);
-        vertex.apparent = vec4<f32>(0.0, 0.0, 0.0, 0.0);
+        vertex.apparent = vec3<f32>(0.0);
+        vertex.path = 0.0;
     }
     return vertex;
 }

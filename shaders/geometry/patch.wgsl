@@ -34,13 +34,20 @@ fn seen_vertex(instance: Instance, index: u32, found: Answer, attitude: vec4<f32
     material: u32) -> SeenVertex {
     let ray = found.ray;
     var vertex: SeenVertex;
-    vertex.apparent = vec4<f32>(ray.apparent, ray.delay);
+    vertex.apparent = ray.apparent;
+    vertex.path = ray.delay;
     let momentum = momentum_at(instance, found.position);
     let turned = select(normal_of(instance, normal), turned_by(attitude, normal), dot(attitude, attitude) > 0.0);
-    vertex.normal = vec4<f32>(turned, frequency_ratio(ray.arriving, ray.leaving, momentum));
-    vertex.leaving = vec4<f32>(leaving_direction(ray.leaving, momentum), length(found.position));
-    vertex.surface = vec4<f32>(uv, bitcast<f32>(index), bitcast<f32>(material));
-    vertex.fan = vec4<f32>(uv, 1.0, found.position.z);
+    vertex.normal = turned;
+    vertex.shift = frequency_ratio(ray.arriving, ray.leaving, momentum);
+    vertex.leaving = leaving_direction(ray.leaving, momentum);
+    vertex.radius = length(found.position);
+    vertex.uv = uv;
+    vertex.instance = index;
+    vertex.material = material;
+    vertex.axis_uv = uv;
+    vertex.from_axis = 1.0;
+    vertex.height = found.position.z;
     return vertex;
 }
 
@@ -323,8 +330,8 @@ fn body_point(instance: Instance, triangle: ModelTriangle, corner: vec3<f32>) ->
 /// The unit normal that points out of the closed body of a model triangle, in the rest frame of what is at `offset` from the camera. Zero
 /// if the surface is not closed or both sides are drawn.
 fn outward_normal(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
-    let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
-    return plane_normal(instance, triangle, offset) * select(sign, 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(instance));
+    let sign = select(1.0, -1.0, (triangle.side & SIDE_AGAINST) != 0u);
+    return plane_normal(instance, triangle, offset) * select(sign, 0.0, triangle.side == SIDE_OPEN || two_sided(instance));
 }
 
 /// If light leaves a triangle below its plane by more than this, as a sine, the body itself hides it. Between the corners the directions of
@@ -340,7 +347,7 @@ fn turned_away(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>, l
     let most = max(dot(n, l0.xyz), max(dot(n, l1.xyz), dot(n, l2.xyz)));
     let spread = max(distance(l0.xyz, l1.xyz), max(distance(l1.xyz, l2.xyz), distance(l2.xyz, l0.xyz)));
     // The crack between two bodies that abut is a small part of a pixel in a slim image.
-    let closed = (triangle.vertices.w & SIDE_LONE) != 0u || slimness(instance) > 1.0;
+    let closed = (triangle.side & SIDE_LONE) != 0u || slimness(instance) > 1.0;
     return closed && min(l0.w, min(l1.w, l2.w)) > LEAST_RADIUS_TURNED && most < -(TURNED_AWAY + turning_slack(instance) + spread);
 }
 
@@ -365,11 +372,11 @@ struct Facing {
 
 /// The facing of a model triangle at `offset` from the camera. Light that has passed the axis once (even orders) shows its source mirrored.
 fn facing_of(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> Facing {
-    let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
+    let sign = select(1.0, -1.0, (triangle.side & SIDE_AGAINST) != 0u);
     let mirrored = select(1.0, -1.0, instance.order == 2u);
     let both = two_sided(instance);
     return Facing(plane_normal(instance, triangle, offset) * sign, select(sign * mirrored, 0.0, both),
-        triangle.vertices.w != SIDE_OPEN && !both);
+        triangle.side != SIDE_OPEN && !both);
 }
 
 /// The unit normal of a plane on the slice, transformed to the rest frame of what is at `offset` from the camera: along the motion lengths

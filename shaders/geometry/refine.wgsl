@@ -24,8 +24,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         return;
     }
     let piece = pieces[queue * frame.capacity.work + index];
-    let instance = instance_at(piece.what.x);
-    let triangle = model_triangle(piece.what.y);
+    let instance = instance_at(piece.instance);
+    let triangle = model_triangle(piece.triangle);
     strict = strictness(instance);
     limb_strict = limb_strictness(instance);
     measure(piece, instance, triangle);
@@ -37,7 +37,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     if unseen && (frame.flags & FLAG_INSIDE) != 0u {
         // The image ends somewhere in this piece: what is seen of its corners is drawn as it is.
         emit_work(piece, vec4<u32>(1u), 1u, 1u);
-    } else if piece.what.z == PIECE_FAN {
+    } else if piece.kind == PIECE_FAN {
         refine_fan(piece, instance);
     } else {
         // Beside the axis light of one triangle leaves in all directions of a cone, and a part of the triangle may be turned away.
@@ -77,7 +77,7 @@ struct Side {
 }
 
 fn side_of(piece: Piece, side: u32, instance: Instance) -> Side {
-    let corners = array<vec3<f32>, 3>(piece.corner_a.xyz, piece.corner_b.xyz, piece.corner_c.xyz);
+    let corners = array<vec3<f32>, 3>(piece.corner_a, piece.corner_b, piece.corner_c);
     var i = (side + 1u) % 3u;
     var j = (side + 2u) % 3u;
     if !comes_first(corners[i], corners[j]) {
@@ -132,8 +132,8 @@ fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32, least: f32, grazed: boo
 /// corners 1 and 2, the outer edge at ¼, ½, ¾; from 6 the radial side at corner 1 at s = 0, ¼, ½, ¾; from 10 that at corner 2; from 14 the
 /// arc at ¼, ½, ¾.
 fn measure(piece: Piece, instance: Instance, triangle: ModelTriangle) {
-    let corners = array<vec3<f32>, 3>(piece.corner_a.xyz, piece.corner_b.xyz, piece.corner_c.xyz);
-    let fan = piece.what.z == PIECE_FAN;
+    let corners = array<vec3<f32>, 3>(piece.corner_a, piece.corner_b, piece.corner_c);
+    let fan = piece.kind == PIECE_FAN;
     let count = select(12u, 17u, fan);
     let normal = plane_normal(instance, triangle, instance.offset);
     for (var k = 0u; k < count; k++) {
@@ -193,9 +193,9 @@ fn emit_leaf(piece: Piece, levels: vec3<u32>, instance: Instance) {
         emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
         return;
     }
-    let corners = array<vec4<f32>, 3>(piece.corner_a, piece.corner_b, piece.corner_c);
+    let corners = array<vec3<f32>, 3>(piece.corner_a, piece.corner_b, piece.corner_c);
     var strip = piece;
-    strip.what.z = PIECE_STRIP;
+    strip.kind = PIECE_STRIP;
     strip.corner_a = corners[turn];
     strip.corner_b = corners[(turn + 1u) % 3u];
     strip.corner_c = corners[(turn + 2u) % 3u];
@@ -257,7 +257,7 @@ const SLICED: f32 = 0.1;
 
 /// Where the axis meets a measured triangle, as `meets_axis`.
 fn met(piece: Piece, order: u32) -> vec3<f32> {
-    let corners = array<vec3<f32>, 3>(piece.corner_a.xyz, piece.corner_b.xyz, piece.corner_c.xyz);
+    let corners = array<vec3<f32>, 3>(piece.corner_a, piece.corner_b, piece.corner_c);
     // The corners in the order that the triangles of each edge agree on.
     var rank = vec3<u32>(0u, 1u, 2u);
     if !comes_first(corners[rank.x], corners[rank.y]) { rank = rank.yxz; }
@@ -287,10 +287,10 @@ fn is_sliver(levels: vec3<u32>) -> bool {
 }
 
 fn refine_triangle(piece: Piece, instance: Instance) {
-    let c0 = piece.corner_a.xyz;
-    let c1 = piece.corner_b.xyz;
-    let c2 = piece.corner_c.xyz;
-    let depth = piece.what.w;
+    let c0 = piece.corner_a;
+    let c1 = piece.corner_b;
+    let c2 = piece.corner_c;
+    let depth = piece.depth;
     if is_lost(instance, by_axis[0], by_axis[1], by_axis[2]) {
         return;
     }
@@ -303,9 +303,9 @@ fn refine_triangle(piece: Piece, instance: Instance) {
         }
         let apex = c0 * at.x + c1 * at.y + c2 * at.z;
         atomicAdd(&counters.cut, 1u);
-        emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, apex, c1, c2);
-        emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, apex, c2, c0);
-        emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, apex, c0, c1);
+        emit_piece(piece.instance, piece.triangle, PIECE_FAN, depth + 1u, apex, c1, c2);
+        emit_piece(piece.instance, piece.triangle, PIECE_FAN, depth + 1u, apex, c2, c0);
+        emit_piece(piece.instance, piece.triangle, PIECE_FAN, depth + 1u, apex, c0, c1);
         return;
     }
     var sides: array<Side, 3>;
@@ -341,9 +341,9 @@ fn refine_triangle(piece: Piece, instance: Instance) {
 
 /// Halves those sides of a triangle that need more than eight segments, and hands on the parts. `turned` is the largest turn of a side.
 fn emit_parts(piece: Piece, sides: array<Side, 3>, turned: f32) {
-    let c0 = piece.corner_a.xyz;
-    let c1 = piece.corner_b.xyz;
-    let c2 = piece.corner_c.xyz;
+    let c0 = piece.corner_a;
+    let c1 = piece.corner_b;
+    let c2 = piece.corner_c;
     var split_0 = sides[0].level > BLOCK;
     var split_1 = sides[1].level > BLOCK;
     var split_2 = sides[2].level > BLOCK;
@@ -373,26 +373,26 @@ fn emit_parts(piece: Piece, sides: array<Side, 3>, turned: f32) {
         parts = array<vec3<f32>, 12>(a, b, m, a, m, c, c0, c0, c0, c0, c0, c0);
     }
     for (var k = 0u; k <= count; k++) {
-        emit_piece(piece.what.x, piece.what.y, PIECE_TRIANGLE, piece.what.w + 1u, parts[3u * k], parts[3u * k + 1u], parts[3u * k + 2u]);
+        emit_piece(piece.instance, piece.triangle, PIECE_TRIANGLE, piece.depth + 1u, parts[3u * k], parts[3u * k + 1u], parts[3u * k + 2u]);
     }
 }
 
 fn refine_fan(piece: Piece, instance: Instance) {
-    let c1 = piece.corner_b.xyz;
-    let c2 = piece.corner_c.xyz;
+    let c1 = piece.corner_b;
+    let c2 = piece.corner_c;
     if is_lost(instance, by_axis[1], by_axis[2], by_axis[2]) {
         return;
     }
     let side = side_of(piece, 0u, instance);
     let outer = side.level;
-    let depth = piece.what.w;
+    let depth = piece.depth;
     if side.turn > most_turn(instance) && is_blurred(instance, by_axis[1], by_axis[2], by_axis[2]) {
         return;
     }
     if outer > BLOCK && depth < DEEPEST {
         let m = side.middle;
-        emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_a.xyz, c1, m);
-        emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_a.xyz, m, c2);
+        emit_piece(piece.instance, piece.triangle, PIECE_FAN, depth + 1u, piece.corner_a, c1, m);
+        emit_piece(piece.instance, piece.triangle, PIECE_FAN, depth + 1u, piece.corner_a, m, c2);
         return;
     }
     if side.turn > most_turn(instance) {

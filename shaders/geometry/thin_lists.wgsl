@@ -44,10 +44,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let c = place(thin[first + 2u].position);
     list_tiles(min(a, min(b, c)), max(a, max(b, c)));
     // What of its light crosses the plane as often as the order says is drawn there, the rest with once less.
-    let data = thin[first].data;
-    let crossings = u32(data.z);
+    let crossings = thin[first].order;
     list(crossings, first);
-    if data.w < 1.0 {
+    if thin[first].across < 1.0 {
         list(crossings - 1u, first);
     }
 }

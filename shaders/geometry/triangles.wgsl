@@ -31,7 +31,7 @@ fn decide(chunk: Chunk, lane: u32) {
     let number = instance.first_triangle + chunk.first + lane;
     let triangle = model_triangle(number);
     let base = instance.first_seen;
-    let slots = vec3<u32>(base) + triangle.vertices.xyz;
+    let slots = vec3<u32>(base) + triangle.vertices;
     let o0 = states[slots.x];
     let o1 = states[slots.y];
     let o2 = states[slots.z];
@@ -67,9 +67,9 @@ fn decide(chunk: Chunk, lane: u32) {
         return;
     }
 
-    let v0 = seen[slots.x].apparent.xyz;
-    let v1 = seen[slots.y].apparent.xyz;
-    let v2 = seen[slots.z].apparent.xyz;
+    let v0 = seen[slots.x].apparent;
+    let v1 = seen[slots.y].apparent;
+    let v2 = seen[slots.z].apparent;
     let levels = vec3<u32>(bitcast<u32>(e0.x), bitcast<u32>(e1.x), bitcast<u32>(e2.x));
     let most = max(levels.x, max(levels.y, levels.z));
     if off_screen(v0, v1, v2, max(e0.w, max(e1.w, e2.w))) {
@@ -80,8 +80,7 @@ fn decide(chunk: Chunk, lane: u32) {
         return;
     }
     if most <= BLOCK {
-        let piece = Piece(vec4<u32>(chunk.instance, number, PIECE_TRIANGLE, 0u), vec4<f32>(corner_a, 0.0), vec4<f32>(corner_b, 0.0),
-            vec4<f32>(corner_c, 0.0));
+        let piece = Piece(chunk.instance, number, PIECE_TRIANGLE, 0u, corner_a, corner_b, corner_c);
         emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
         return;
     }
@@ -90,8 +89,7 @@ fn decide(chunk: Chunk, lane: u32) {
 
 /// The direction in which light leaves a seen vertex, at T₀; w: its radius.
 fn leaving_of(instance: Instance, slot: u32) -> vec4<f32> {
-    let leaving = seen[slot].leaving;
-    return vec4<f32>(before_turning(instance, leaving.xyz, seen[slot].apparent.w), leaving.w);
+    return vec4<f32>(before_turning(instance, seen[slot].leaving, seen[slot].path), seen[slot].radius);
 }
 
 /// Where the axis meets a triangle, its image opens into an arc. It is cut there into fans.
@@ -136,7 +134,7 @@ const LARGEST_AREA_RATIO: f32 = 9.0;
 
 /// S/S′: the area of a triangle on the screen over the area that it has there without the hole. Where a corner is behind the camera, 0.
 fn area_ratio(slots: vec3<u32>, o0: vec3<f32>, o1: vec3<f32>, o2: vec3<f32>) -> f32 {
-    let with_hole = area_on_screen(seen[slots.x].apparent.xyz, seen[slots.y].apparent.xyz, seen[slots.z].apparent.xyz);
+    let with_hole = area_on_screen(seen[slots.x].apparent, seen[slots.y].apparent, seen[slots.z].apparent);
     let without = area_on_screen(seen_straight(o0), seen_straight(o1), seen_straight(o2));
     if with_hole < 0.0 || without < 0.0 {
         return 0.0;

@@ -31,6 +31,6 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         atomicAdd(&counters.caught, 1u);
     }
     seen[slot] = seen_vertex(instance, chunk.instance, found, found.attitude, vertex.normal.xyz,
-        vec2<f32>(vertex.position.w, vertex.normal.w), vertex.info.x + instance.first_material);
+        vec2<f32>(vertex.u, vertex.v), vertex.material + instance.first_material);
     states[slot] = vec4<f32>(found.by_axis, select(VERTEX_UNSEEN, select(VERTEX_PLAIN, VERTEX_ON_AXIS, on_axis), ok));
 }

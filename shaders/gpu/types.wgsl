@@ -211,19 +211,30 @@ fn two_sided(instance: Instance) -> bool {
 }
 
 struct ModelVertex {
-    /// Body axes, model units; w: u of the texture.
-    position: vec4<f32>,
-    /// Unit normal in body axes; w: v of the texture.
-    normal: vec4<f32>,
-    /// x: material, counted from the model's own first; a vertex belongs to one material. yzw unused.
-    info: vec4<u32>,
+    /// Body axes, model units.
+    position: vec3<f32>,
+    /// u of the texture.
+    u: f32,
+    /// Unit normal in body axes.
+    normal: vec3<f32>,
+    /// v of the texture.
+    v: f32,
+    /// Counted from the model's own first; a vertex belongs to one material.
+    material: u32,
+    unused_a: u32,
+    unused_b: u32,
+    unused_c: u32,
 }
 
 struct ModelTriangle {
-    /// Three vertices in ascending order, counted from the model's own first; w: SIDE_*.
-    vertices: vec4<u32>,
-    /// Edge i is opposite to vertex i; w: a bit for each direction from which no other part of the model hides it (models/hiding.wgsl).
-    edges: vec4<u32>,
+    /// Three vertices in ascending order, counted from the model's own first.
+    vertices: vec3<u32>,
+    /// SIDE_*.
+    side: u32,
+    /// Edge i is opposite to vertex i.
+    edges: vec3<u32>,
+    /// A bit for each direction from which no other part of the model hides it (models/hiding.wgsl).
+    seen_from: u32,
 }
 
 /// Which side of a triangle is outside: none (a part of an open sheet), that to which the cross product of its sides 0–1 and 0–2 points, or
@@ -241,33 +252,50 @@ struct Chunk {
 
 /// A vertex as the camera sees it: what the rasteriser draws.
 struct SeenVertex {
-    /// Direction from the camera times light path, camera axes; w: the light path (delay T_arrival − T_emission).
-    apparent: vec4<f32>,
-    /// Normal in rain axes (rest frame of the object, pure boost); w: g = ν_observed/ν_emitted.
-    normal: vec4<f32>,
-    /// Unit direction in which the light left, rest frame of the object, rain axes; w: radius at emission.
-    leaving: vec4<f32>,
-    /// x, y: texture coordinates; z: instance, w: material (bits).
-    surface: vec4<f32>,
-    /// z: how far from the axis, of a fan (1 elsewhere): between the axis, with the texture coordinates x, y, and the point of the outer
-    /// edge that `surface` tells. The product is left to the pixels: over a cell that narrows to a point of the surface it is not linear.
-    /// w: height over the disk's plane at emission, in r_s.
-    fan: vec4<f32>,
+    /// Direction from the camera times light path, camera axes.
+    apparent: vec3<f32>,
+    /// The light path (delay T_arrival − T_emission), in r_s; 0 for what is not seen.
+    path: f32,
+    /// Normal in rain axes (rest frame of the object, pure boost).
+    normal: vec3<f32>,
+    /// g = ν_observed/ν_emitted.
+    shift: f32,
+    /// Unit direction in which the light left, rest frame of the object, rain axes.
+    leaving: vec3<f32>,
+    /// Radius at emission, in r_s.
+    radius: f32,
+    /// Texture coordinates: of a fan, those of the point of its outer edge.
+    uv: vec2<f32>,
+    /// Until the mesh stage has seen to it: its work item.
+    instance: u32,
+    material: u32,
+    /// Of a fan: texture coordinates at the axis,
+    axis_uv: vec2<f32>,
+    /// and how far from there (0) towards the outer edge (1; 1 elsewhere) the vertex is. The product is left to the pixels: over a cell that
+    /// narrows to a point of the surface it is not linear.
+    from_axis: f32,
+    /// Height over the disk's plane at emission, in r_s.
+    height: f32,
 }
 
 /// Texture coordinates of a vertex.
 fn texture_point(vertex: SeenVertex) -> vec2<f32> {
-    return mix(vertex.fan.xy, vertex.surface.xy, vec2<f32>(vertex.fan.z));
+    return mix(vertex.axis_uv, vertex.uv, vec2<f32>(vertex.from_axis));
 }
 
 /// A part of a triangle on its way from the object stage to the mesh stage. Corners are barycentric coordinates in the model triangle,
 /// whose vertices are sorted by index: that makes every point of an edge the same bits from both its sides.
 struct Piece {
-    /// x: instance, y: model triangle, z: kind (PIECE_*), w: depth of splitting.
-    what: vec4<u32>,
-    corner_a: vec4<f32>,
-    corner_b: vec4<f32>,
-    corner_c: vec4<f32>,
+    instance: u32,
+    /// The model triangle.
+    triangle: u32,
+    /// PIECE_*.
+    kind: u32,
+    /// How often it was split.
+    depth: u32,
+    corner_a: vec3<f32>,
+    corner_b: vec3<f32>,
+    corner_c: vec3<f32>,
 }
 
 /// A triangle, tessellated on a barycentric grid.
@@ -283,11 +311,18 @@ struct WorkItem {
     /// Levels of the sides. Triangle and strip: of the edge opposite corner 0, 1, 2. Fan: arc at the axis, outer edge, radial sides at
     /// corner 1 and 2.
     levels: vec4<u32>,
-    /// x, y: cells of the whole grid (from the axis, along the edge; a triangle has x = y, a strip one row along the edge opposite corner
-    /// 0), z, w: first row and column of the block.
-    grid: vec4<u32>,
-    /// x: first seen vertex, y: first index, z: vertices, w: triangles.
-    place: vec4<u32>,
+    /// Cells of the whole grid (from the axis, along the edge; a triangle has as many rows as columns, a strip one row along the edge
+    /// opposite corner 0).
+    rows: u32,
+    columns: u32,
+    /// First row and column of the block.
+    first_row: u32,
+    first_column: u32,
+    /// First seen vertex and first index.
+    first_vertex: u32,
+    first_index: u32,
+    vertex_count: u32,
+    triangle_count: u32,
 }
 
 struct Material {
@@ -326,7 +361,11 @@ struct SkyCorner {
 struct ThinVertex {
     /// Clip position, widened to at least a pixel.
     position: vec4<f32>,
-    /// x: seen vertex (bits of a u32), y: coverage, the share of the drawn area that is covered, z: image order, w: the share whose light
-    /// crosses the disk's plane as often as the order says, and not once less.
-    data: vec4<f32>,
+    /// The seen vertex.
+    vertex: u32,
+    /// The share of the drawn area that is covered.
+    coverage: f32,
+    order: u32,
+    /// The share whose light crosses the disk's plane as often as the order says, and not once less.
+    across: f32,
 }

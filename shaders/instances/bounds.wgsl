@@ -11,9 +11,9 @@ fn leaves_bounds(instance: Instance, i0: u32, i1: u32, i2: u32) -> bool {
     if instance.bound_high.rim == 0.0 && instance.bound_low.rim == 0.0 && instance.bound_look.rim == 0.0 {
         return false;
     }
-    let a = normalize(seen[i0].apparent.xyz);
-    let b = normalize(seen[i1].apparent.xyz);
-    let c = normalize(seen[i2].apparent.xyz);
+    let a = normalize(seen[i0].apparent);
+    let b = normalize(seen[i1].apparent);
+    let c = normalize(seen[i2].apparent);
     let leaves = leaves_cap(instance.bound_high, a, b, c) || leaves_cap(instance.bound_low, a, b, c)
         || leaves_cap(instance.bound_look, a, b, c);
     if leaves {

@@ -7,19 +7,27 @@
 #import lensrunner::shading::bindings::seen
 #import lensrunner::shading::shade::{shaded, Surface, surface_of, texture_place}
 
-/// `SeenVertex` from the vertex buffer; `surface` as bits, since two of its numbers are integers.
+/// `SeenVertex` from the vertex buffer.
 struct SeenInput {
-    @location(0) apparent: vec4<f32>,
-    @location(1) normal: vec4<f32>,
-    @location(2) leaving: vec4<f32>,
-    @location(3) surface: vec4<u32>,
-    @location(4) fan: vec4<f32>,
+    @location(0) apparent: vec3<f32>,
+    @location(1) path: f32,
+    @location(2) normal: vec3<f32>,
+    @location(3) shift: f32,
+    @location(4) leaving: vec3<f32>,
+    @location(5) radius: f32,
+    @location(6) uv: vec2<f32>,
+    @location(7) instance: u32,
+    @location(8) material: u32,
+    @location(9) axis_uv: vec2<f32>,
+    @location(10) from_axis: f32,
+    @location(11) height: f32,
 }
 
 @vertex
 fn opaque_vertex(in: SeenInput) -> Surface {
-    let vertex = SeenVertex(in.apparent, in.normal, in.leaving, bitcast<vec4<f32>>(in.surface), in.fan);
-    return surface_of(vertex, clip_position(vertex.apparent.xyz), vec2<f32>(1.0, 0.0));
+    let vertex = SeenVertex(in.apparent, in.path, in.normal, in.shift, in.leaving, in.radius, in.uv, in.instance, in.material, in.axis_uv,
+        in.from_axis, in.height);
+    return surface_of(vertex, clip_position(vertex.apparent), vec2<f32>(1.0, 0.0));
 }
 
 @fragment
@@ -46,10 +54,13 @@ fn layers_fragment(in: Surface) -> Layers {
     return Layers(vec4<f32>(f32(in.which.x), f32(in.which.y), in.uv.z, in.normal.w), vec4<f32>(texture_place(in), in.coverage.x, 0.0));
 }
 
-/// `ThinVertex` from the vertex buffer; `data` as bits, since its first number is an integer.
+/// `ThinVertex` from the vertex buffer.
 struct ThinInput {
     @location(0) position: vec4<f32>,
-    @location(1) data: vec4<u32>,
+    @location(1) vertex: u32,
+    @location(2) coverage: f32,
+    @location(3) order: u32,
+    @location(4) across: f32,
 }
 
 @vertex
@@ -58,34 +69,34 @@ fn thin_vertex(in: ThinInput) -> Surface {
 }
 
 fn thin_surface(in: ThinInput, shares: vec2<f32>) -> Surface {
-    return surface_of(seen[in.data.x], in.position, bitcast<f32>(in.data.y) * shares);
+    return surface_of(seen[in.vertex], in.position, in.coverage * shares);
 }
 
 /// The coverage of those parts of the triangle whose light crosses the disk's plane `crossings` times; and that of the parts of the same
 /// image whose light crosses it once less. Triangles of both have been listed (geometry/thin_lists.wgsl).
-fn thin_across(in: ThinInput, crossings: f32) -> Surface {
-    let data = bitcast<vec4<f32>>(in.data);
-    return thin_surface(in, select(vec2<f32>(1.0 - data.w, 0.0), vec2<f32>(data.w, 1.0 - data.w), crossings == data.z));
+fn thin_across(in: ThinInput, crossings: u32) -> Surface {
+    let share = in.across;
+    return thin_surface(in, select(vec2<f32>(1.0 - share, 0.0), vec2<f32>(share, 1.0 - share), crossings == in.order));
 }
 
 @vertex
 fn thin_vertex_0(in: ThinInput) -> Surface {
-    return thin_across(in, 0.0);
+    return thin_across(in, 0u);
 }
 
 @vertex
 fn thin_vertex_1(in: ThinInput) -> Surface {
-    return thin_across(in, 1.0);
+    return thin_across(in, 1u);
 }
 
 @vertex
 fn thin_vertex_2(in: ThinInput) -> Surface {
-    return thin_across(in, 2.0);
+    return thin_across(in, 2u);
 }
 
 @vertex
 fn thin_vertex_3(in: ThinInput) -> Surface {
-    return thin_across(in, 3.0);
+    return thin_across(in, 3u);
 }
 
 struct Thin {

@@ -8,13 +8,18 @@
 #import lensrunner::shading::aurora_light::{aurora_light, ground_place}
 #import lensrunner::shading::bindings::{materials, surface_sampler, surface_textures}
 
+/// What goes to the pixels, packed: at most 16 variables go between stages.
 struct Surface {
     @builtin(position) position: vec4<f32>,
+    /// `SeenVertex.normal`; w: its shift.
     @location(0) normal: vec4<f32>,
+    /// `SeenVertex.leaving`; w: its radius.
     @location(1) leaving: vec4<f32>,
+    /// Texture coordinates; z: light path.
     @location(2) uv: vec3<f32>,
     /// x: what it covers; y: what the nearer part of the same image covers, which is laid over it later.
     @location(3) coverage: vec2<f32>,
+    /// Texture coordinates at the axis; z: how far from there.
     @location(4) fan: vec3<f32>,
     /// Object id and image order; z: texture layer + 1.
     @location(5) @interpolate(flat) which: vec3<u32>,
@@ -31,16 +36,17 @@ struct Surface {
 }
 
 fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> Surface {
-    let instance = instance_at(bitcast<u32>(vertex.surface.z));
-    let material = bitcast<u32>(vertex.surface.w);
+    let instance = instance_at(vertex.instance);
+    let material = vertex.material;
     let kind = materials[material].surface;
     let filled = fill(instance);
     // Only nozzles (w of `kind`) shine with the engines.
     let glow = vec4<f32>(vec3<f32>(1.0 - kind.w * instance.engines_off), 1.0);
-    return Surface(position, vertex.normal, vertex.leaving, vec3<f32>(vertex.surface.xy, vertex.apparent.w), coverage, vertex.fan.xyz,
+    return Surface(position, vec4<f32>(vertex.normal, vertex.shift), vec4<f32>(vertex.leaving, vertex.radius),
+        vec3<f32>(vertex.uv, vertex.path), coverage, vec3<f32>(vertex.axis_uv, vertex.from_axis),
         vec3<u32>(instance.object, instance.order, u32(kind.y + 1.0)), instance.light_red * filled, instance.light_green * filled,
         instance.light_blue * filled, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive * glow,
-        ground_place(instance, before_turning(instance, vertex.normal.xyz, vertex.apparent.w)));
+        ground_place(instance, before_turning(instance, vertex.normal, vertex.path)));
 }
 
 /// Factor on the light that falls on the player's own ship, so that middle grey, at the exposure of the frame before, is neither too dark

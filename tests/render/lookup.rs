@@ -77,7 +77,7 @@ impl Bench {
 }
 
 pub fn apparent(vertex: &SeenVertex) -> DVec3 {
-    let [x, y, z, _] = vertex.apparent;
+    let [x, y, z] = vertex.apparent;
     DVec3::new(f64::from(x), f64::from(y), f64::from(z))
 }
 
@@ -121,8 +121,8 @@ fn a_camera_inside_sees_what_is_inside_twice() {
                 let got = apparent(vertex);
                 let angle = got.normalize().angle_between(want).to_degrees();
                 assert!(angle < 0.01, "{branch:?} {position} {point}: {angle}° off");
-                let late = (f64::from(vertex.apparent[3]) - delay).abs();
-                assert!(late < 0.002 + 1e-4 * delay, "{branch:?} {position} {point}: delay {} for {delay}", vertex.apparent[3]);
+                let late = (f64::from(vertex.path) - delay).abs();
+                assert!(late < 0.002 + 1e-4 * delay, "{branch:?} {position} {point}: delay {} for {delay}", vertex.path);
             }
         }
     }
@@ -151,7 +151,7 @@ fn what_was_foreseen_is_seen_inside() {
         let vertices = placed.len() * bench.points().len();
         let [seen, want] =
             [&mut foreseeing, &mut *bench].map(|bench| bench.seen(camera, 0.0, placed.clone(), settings)[..vertices].to_vec());
-        assert!(want.iter().filter(|vertex| vertex.apparent[3] > 0.0).count() > 50, "from {radius}");
+        assert!(want.iter().filter(|vertex| vertex.path > 0.0).count() > 50, "from {radius}");
         assert!(bytemuck::cast_slice::<_, u8>(&seen) == bytemuck::cast_slice::<_, u8>(&want), "from {radius}");
     }
 }
@@ -215,11 +215,11 @@ fn check_flight(camera: Observer, time: f64, history: &History, size: f64, order
             let (want, delay) = judged(&camera, place, order, branch).expect("the judge sees it");
             assert!((time - left - delay).abs() < 1e-6 * (1.0 + delay), "the exact ray took {}, the judge's {delay}", time - left);
             let angle = apparent(vertex).normalize().angle_between(want).to_degrees();
-            assert!(vertex.apparent[3] > 0.0, "order {order} {branch:?} r {}: not seen", place.length());
+            assert!(vertex.path > 0.0, "order {order} {branch:?} r {}: not seen", place.length());
             worst = worst.max(angle);
             assert!(angle < most, "order {order} {branch:?} r {}: {angle}° off", place.length());
-            let late = (f64::from(vertex.apparent[3]) - delay).abs();
-            assert!(late < 0.01 + 1e-4 * delay, "order {order} {branch:?}: delay {} for {delay}", vertex.apparent[3]);
+            let late = (f64::from(vertex.path) - delay).abs();
+            assert!(late < 0.01 + 1e-4 * delay, "order {order} {branch:?}: delay {} for {delay}", vertex.path);
             counts[usize::from(branch == Branch::Minus)] += 1;
         }
     }
@@ -286,9 +286,9 @@ fn a_far_camera_sees_what_is_near_the_horizon_on_time() {
                 let place = position + *point * size;
                 let (r, phi, _, _) = polar(&camera, place);
                 let exact = light::connect(1.0 / r, Order::new(order).unwrap().swept(phi), 1.0 / camera.radius(), Branch::Plus).unwrap();
-                let late = (f64::from(vertex.apparent[3]) - exact.delay).abs();
+                let late = (f64::from(vertex.path) - exact.delay).abs();
                 // 0.02 near the horizon, and what f32 makes of 5,000.
-                assert!(late < 0.022, "order {order} r {r}: delay {} for {}", vertex.apparent[3], exact.delay);
+                assert!(late < 0.022, "order {order} r {r}: delay {} for {}", vertex.path, exact.delay);
             }
         }
     }
@@ -309,7 +309,7 @@ fn flat_space_projects_straight() {
         let line = position + *point * 0.5 - camera.position;
         let want = camera.attitude.conjugate() * line;
         assert!((apparent(vertex) - want).length() < 1e-5 * line.length(), "{} for {want}", apparent(vertex));
-        assert!((vertex.normal[3] - 1.0).abs() < 1e-5, "g = {} between things at rest", vertex.normal[3]);
+        assert!((vertex.shift - 1.0).abs() < 1e-5, "g = {} between things at rest", vertex.shift);
     }
     // And back again: pipelines are made anew.
     let settings = Settings::finest();

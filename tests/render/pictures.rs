@@ -84,7 +84,7 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
         if want[0] < 0.0 || want[1] < 0.0 || want[0] > 1280.0 || want[1] > 720.0 {
             continue;
         }
-        let [x, y, z, _] = vertex.apparent;
+        let [x, y, z] = vertex.apparent;
         let got = camera.pixel(DVec3::new(f64::from(x), f64::from(y), f64::from(z)), size).expect("in front of the camera");
         let off = (got[0] - want[0]).hypot(got[1] - want[1]);
         worst = worst.max(off);

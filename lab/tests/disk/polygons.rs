@@ -36,16 +36,16 @@ fn a_ring_is_seen_where_it_was() {
         let bytes = readback::buffer(&GPU, renderer.disk().unwrap().polygons().unwrap().seen()).unwrap();
         let vertices = bytes.chunks_exact(size_of::<SeenVertex>()).map(bytemuck::pod_read_unaligned::<SeenVertex>);
         let (mut checked, mut worst, mut farthest) = (0, 0.0f64, 0.0f64);
-        for vertex in vertices.take_while(|vertex| (vertex.surface[2].to_bits() as usize) < rings.len()) {
+        for vertex in vertices.take_while(|vertex| (vertex.instance as usize) < rings.len()) {
             let [x, y, z, delay] = vertex.apparent.map(f64::from);
             let Some(at) = camera.pixel(glam::DVec3::new(x, y, z), size) else { continue };
             let crossing = disk::exact::crossings(&disk.gas, &camera, size, at, 1);
             let Some(crossing) = crossing.first().filter(|crossing| crossing.radius < 11.9) else { continue };
-            let ring = &rings[vertex.surface[2].to_bits() as usize];
+            let ring = &rings[vertex.instance as usize];
             let left = time - crossing.path;
-            let azimuth = TAU * f64::from(vertex.surface[0]) + ring.rate * left;
+            let azimuth = TAU * f64::from(vertex.uv[0]) + ring.rate * left;
             let turned = (crossing.azimuth - azimuth + PI).rem_euclid(TAU) - PI;
-            let off = (turned * crossing.radius).hypot(crossing.radius - f64::from(vertex.surface[1]));
+            let off = (turned * crossing.radius).hypot(crossing.radius - f64::from(vertex.uv[1]));
             worst = worst.max(off);
             farthest = farthest.max((delay - crossing.path).abs());
             checked += 1;

@@ -118,8 +118,10 @@ fn surface_sampler(device: &wgpu::Device) -> wgpu::Sampler {
 
 /// [`SeenVertex`] as a vertex buffer, `SeenInput` of WGSL.
 fn seen_layout() -> wgpu::VertexBufferLayout<'static> {
-    const ATTRIBUTES: [wgpu::VertexAttribute; 5] =
-        wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4, 3 => Uint32x4, 4 => Float32x4];
+    const ATTRIBUTES: [wgpu::VertexAttribute; 12] = wgpu::vertex_attr_array![
+        0 => Float32x3, 1 => Float32, 2 => Float32x3, 3 => Float32, 4 => Float32x3, 5 => Float32, 6 => Float32x2, 7 => Uint32, 8 => Uint32,
+        9 => Float32x2, 10 => Float32, 11 => Float32
+    ];
     wgpu::VertexBufferLayout {
         array_stride: size_of::<SeenVertex>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
@@ -129,7 +131,8 @@ fn seen_layout() -> wgpu::VertexBufferLayout<'static> {
 
 /// `ThinVertex` as a vertex buffer, `ThinInput` of WGSL.
 fn thin_layout() -> wgpu::VertexBufferLayout<'static> {
-    const ATTRIBUTES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![0 => Float32x4, 1 => Uint32x4];
+    const ATTRIBUTES: [wgpu::VertexAttribute; 5] =
+        wgpu::vertex_attr_array![0 => Float32x4, 1 => Uint32, 2 => Float32, 3 => Uint32, 4 => Float32];
     wgpu::VertexBufferLayout { array_stride: types::THIN_BYTES, step_mode: wgpu::VertexStepMode::Vertex, attributes: &ATTRIBUTES }
 }
 

@@ -169,9 +169,12 @@ pub mod placed {
 #[repr(C)]
 #[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
 pub struct ModelVertex {
-    pub position: [f32; 4],
-    pub normal: [f32; 4],
-    pub info: [u32; 4],
+    pub position: [f32; 3],
+    pub u: f32,
+    pub normal: [f32; 3],
+    pub v: f32,
+    pub material: u32,
+    pub unused: [u32; 3],
 }
 
 /// `ModelTriangle` in WGSL.
@@ -179,8 +182,10 @@ pub struct ModelVertex {
 #[repr(C)]
 #[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
 pub struct ModelTriangle {
-    pub vertices: [u32; 4],
-    pub edges: [u32; 4],
+    pub vertices: [u32; 3],
+    pub side: u32,
+    pub edges: [u32; 3],
+    pub seen_from: u32,
 }
 
 /// `Chunk` in WGSL.
@@ -197,11 +202,18 @@ pub struct Chunk {
 #[repr(C)]
 #[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
 pub struct SeenVertex {
-    pub apparent: [f32; 4],
-    pub normal: [f32; 4],
-    pub leaving: [f32; 4],
-    pub surface: [f32; 4],
-    pub fan: [f32; 4],
+    pub apparent: [f32; 3],
+    pub path: f32,
+    pub normal: [f32; 3],
+    pub shift: f32,
+    pub leaving: [f32; 3],
+    pub radius: f32,
+    pub uv: [f32; 2],
+    pub instance: u32,
+    pub material: u32,
+    pub axis_uv: [f32; 2],
+    pub from_axis: f32,
+    pub height: f32,
 }
 
 /// `Material` in WGSL.

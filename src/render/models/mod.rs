@@ -72,9 +72,8 @@ impl Prepared {
             .iter()
             .map(|&(vertex, material)| {
                 let v = &model.vertices[vertex as usize];
-                let [x, y, z] = v.position;
-                let [nx, ny, nz] = v.normal;
-                ModelVertex { position: [x, y, z, v.uv[0]], normal: [nx, ny, nz, v.uv[1]], info: [material, 0, 0, 0] }
+                let [u, v_of_texture] = v.uv;
+                ModelVertex { position: v.position, u, normal: v.normal, v: v_of_texture, material, unused: [0; 3] }
             })
             .collect();
         let mut edges = Vec::new();
@@ -95,8 +94,10 @@ impl Prepared {
                 })
             };
             triangles.push(ModelTriangle {
-                vertices: [v[0], v[1], v[2], side],
-                edges: [edge(v[1], v[2]), edge(v[0], v[2]), edge(v[0], v[1]), seen],
+                vertices: v,
+                side,
+                edges: [edge(v[1], v[2]), edge(v[0], v[2]), edge(v[0], v[1])],
+                seen_from: seen,
             });
         }
         find_opposite(&vertices, &triangles, &mut edges);
@@ -117,7 +118,7 @@ fn find_opposite(vertices: &[ModelVertex], triangles: &[ModelTriangle], edges: &
     };
     let mut opposite: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
     for triangle in triangles {
-        let [a, b, c, _] = triangle.vertices;
+        let [a, b, c] = triangle.vertices;
         for (edge, third) in [(key(b, c), a), (key(a, c), b), (key(a, b), c)] {
             opposite.entry(edge).or_default().push(third);
         }

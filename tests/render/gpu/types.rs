@@ -77,10 +77,13 @@ fn structs_have_one_layout_in_both_languages() {
             edge_count, first_triangle, triangle_count, first_material, flags),
         ),
         ("gpu::types::Cap", fields!(Cap: middle, rim)),
-        ("gpu::types::ModelVertex", fields!(ModelVertex: position, normal, info)),
-        ("gpu::types::ModelTriangle", fields!(ModelTriangle: vertices, edges)),
+        ("gpu::types::ModelVertex", fields!(ModelVertex: position, u, normal, v, material, unused ["unused_a", "unused_b", "unused_c"])),
+        ("gpu::types::ModelTriangle", fields!(ModelTriangle: vertices, side, edges, seen_from)),
         ("gpu::types::Chunk", fields!(Chunk: instance, first)),
-        ("gpu::types::SeenVertex", fields!(SeenVertex: apparent, normal, leaving, surface, fan)),
+        (
+            "gpu::types::SeenVertex",
+            fields!(SeenVertex: apparent, path, normal, shift, leaving, radius, uv, instance, material, axis_uv, from_axis, height),
+        ),
         (
             "geometry::bindings::Counters",
             fields!(Counters: vertices, indices, work, thin, pieces, turn, coarse, cut, caught, model_vertices, lost, outside, split,
