@@ -37,7 +37,7 @@ fn a_ring_is_seen_where_it_was() {
         let vertices = bytes.chunks_exact(size_of::<SeenVertex>()).map(bytemuck::pod_read_unaligned::<SeenVertex>);
         let (mut checked, mut worst, mut farthest) = (0, 0.0f64, 0.0f64);
         for vertex in vertices.take_while(|vertex| (vertex.instance as usize) < rings.len()) {
-            let [x, y, z, delay] = vertex.apparent.map(f64::from);
+            let ([x, y, z], delay) = (vertex.apparent.map(f64::from), f64::from(vertex.path));
             let Some(at) = camera.pixel(glam::DVec3::new(x, y, z), size) else { continue };
             let crossing = disk::exact::crossings(&disk.gas, &camera, size, at, 1);
             let Some(crossing) = crossing.first().filter(|crossing| crossing.radius < 11.9) else { continue };
