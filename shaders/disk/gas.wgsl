@@ -40,15 +40,15 @@ const LEAST_LIGHT: f32 = 1e-30;
 
 /// The gas at a vertex seen at `position`, at `turns` and `height` in the pattern.
 fn gas_at(position: vec4<f32>, turns: f32, height: f32, path: f32, depth: f32, light: GasLight, thin: vec2<f32>, cosine: f32) -> Gas {
-    let time = disk.renewal.x - path * disk.renewal.y;
+    let time = disk.renewals - path * disk.renewals_per_time;
     let number = floor(time);
     let grown = time - number;
     // The light of a thin image already contains the mean of its streaks.
-    let shares = disk_shares(grown) * (0.36067376 * disk.gas.x * sqrt(own_share(thin.y)));
-    let age = grown * disk.renewal.z + disk.renewal.w;
-    let place = vec2<f32>(turns, 0.0) + disk.offset.xy + number * disk.offset.zw;
+    let shares = disk_shares(grown) * (0.36067376 * disk.contrast * sqrt(own_share(thin.y)));
+    let age = grown * disk.renewal + disk.newborn;
+    let place = vec2<f32>(turns, 0.0) + disk.offset + number * disk.offset_step;
     let young = vec4<f32>(place, age, shares.x);
-    let old = vec4<f32>(place - disk.offset.zw, age + disk.renewal.z, shares.y);
+    let old = vec4<f32>(place - disk.offset_step, age + disk.renewal, shares.y);
     let is_even = fract(0.5 * number) < 0.25;
     return Gas(position, select(old, young, is_even), select(young, old, is_even),
         vec4<f32>(log2(max(light.rgb, vec3<f32>(LEAST_LIGHT))), depth),

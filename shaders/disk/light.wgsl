@@ -24,7 +24,7 @@ fn gas_light(ln_temperature: f32, ln_g: f32) -> GasLight {
     let rgb = blackbody_rgb(exp(shown));
     // The temperature that determines brightness, and with it the slope: another than that of the colour if one of both is switched off.
     let felt = select(ln_temperature, shifted, beaming);
-    var gain = disk.light.x;
+    var gain = disk.unit;
     var glow = rgb;
     if (doppler != beaming) & (ln_g != 0.0) {
         glow = blackbody_rgb(exp(felt));

@@ -58,9 +58,9 @@ fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
     if gas.a.y < 1e-3 {
         return nothing;
     }
-    let here = bearing(sprite.sigma, disk.upwards.w);
+    let here = bearing(sprite.sigma, disk.steepness);
     // Not by the slope there: near the axis behind the hole that would lead to the other side of the image.
-    let next = bearing(sprite.sigma + sprite.step, disk.upwards.w);
+    let next = bearing(sprite.sigma + sprite.step, disk.steepness);
     let step = next.theta - here.theta;
     let turn = select(1.0, -1.0, order == 2u);
     let apart = select(RINGS_APART, 1.0, order == 1u);
@@ -75,10 +75,10 @@ fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
         let there = r + select(0.0, apart * image.ring_width, k == 0u);
         let s = select(here.sine, next.sine, k == 1u);
         let c = select(here.cosine, next.cosine, k == 1u);
-        let up = -disk.towards.w * c;
+        let up = -disk.camera_sine * c;
         let reach = sqrt(up * up + s * s);
-        let side = (disk.upwards.xyz * up + disk.sideways.xyz * s) / max(reach, 1e-12);
-        ray = lens_lookup_at(there * c * disk.sideways.w - frame.camera_radius, there * reach, there * c * disk.sideways.w, order);
+        let side = (disk.upwards * up + disk.sideways * s) / max(reach, 1e-12);
+        ray = lens_lookup_at(there * c * disk.camera_cosine - frame.camera_radius, there * reach, there * c * disk.camera_cosine, order);
         let look = frame.outward * ray.cos_psi + side * (turn * ray.sin_psi);
         apparent = (frame.camera_from_rain * vec4<f32>(look * ray.delay, -ray.delay)).xyz;
         if !ray.valid || ray.delay <= 0.0 || !finite_vector(apparent) {

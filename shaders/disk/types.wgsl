@@ -4,30 +4,59 @@
 // between arcs, odd ones the middles of arcs. θ is the azimuth from the camera's.
 
 struct DiskFrame {
-    /// Unit vector in the disk's plane towards the camera; w: sine h of the camera's height over the plane, kept away from 0.
-    towards: vec4<f32>,
-    /// Unit vector in the plane, a quarter turn on; w: √(1 − h²).
-    sideways: vec4<f32>,
-    /// Unit vector across the axis and upwards, which completes (radial, sideways); w: |h|.
-    upwards: vec4<f32>,
-    /// x: time at the camera since the first generation of streaks, in renewals; y: renewals per r_s/c; z: one renewal in r_s/c; w: age of
-    /// a new-born.
-    renewal: vec4<f32>,
-    /// x: standard deviation of ln density; y: the share of the area that has gas, in rings whose gaps are closed; z: error budget of an
-    /// arc in rad; w: least width of thin images in pixels.
-    gas: vec4<f32>,
-    /// x: columns of a row; y: arcs round the hole; z: rows; w: rings over all orders.
-    sizes: vec4<u32>,
+    /// Unit vector in the disk's plane towards the camera.
+    towards: vec3<f32>,
+    /// Sine h of the camera's height over the plane, kept away from 0.
+    camera_sine: f32,
+    /// Unit vector in the plane, a quarter turn on.
+    sideways: vec3<f32>,
+    /// √(1 − h²).
+    camera_cosine: f32,
+    /// Unit vector across the axis and upwards, which completes (radial, sideways).
+    upwards: vec3<f32>,
+    /// |h|.
+    steepness: f32,
+    /// Time at the camera since the first generation of streaks, in renewals.
+    renewals: f32,
+    /// Renewals per r_s/c.
+    renewals_per_time: f32,
+    /// One renewal, in r_s/c.
+    renewal: f32,
+    /// Age of a new-born, in r_s/c.
+    newborn: f32,
+    /// Standard deviation of ln density.
+    contrast: f32,
+    /// The share of the area that has gas, in rings whose gaps are closed.
+    filled: f32,
+    /// Of an arc, in rad.
+    error_budget: f32,
+    /// Of thin images, in pixels.
+    least_width: f32,
+    /// Columns of a row, arcs round the hole, rows, and rings over all orders.
+    columns: u32,
+    arcs: u32,
+    rows: u32,
+    rings: u32,
     /// First indices of the lists of triangles: orders 1, 2, 3, and the part of order 1 that is far from a close camera.
     regions: vec4<u32>,
-    /// x: vertices for which there is room; y: orders up to this one are drawn as from near (finest octaves, slant in each pixel); z: half
-    /// height over radius (bits of an f32); w: the end of the last list of triangles.
-    room: vec4<u32>,
-    /// x: the scene's unit of light over that of the table of black bodies; y: for a close camera, the light path in r_s beyond which arcs
-    /// of order 1 are drawn as from far; z: most positions along a pixel at which a close camera looks gas up; w unused.
-    light: vec4<f32>,
-    /// x, y: position in the pattern of the first generation; z, w: step to the next.
-    offset: vec4<f32>,
+    /// Vertices for which there is room.
+    vertex_room: u32,
+    /// Orders up to this one are drawn as from near (finest octaves, slant in each pixel).
+    near_orders: u32,
+    /// Half height over radius.
+    thickness: f32,
+    /// The end of the last list of triangles.
+    regions_end: u32,
+    /// The scene's unit of light over that of the table of black bodies.
+    unit: f32,
+    /// For a close camera, the light path in r_s beyond which arcs of order 1 are drawn as from far.
+    close: f32,
+    /// Most positions along a pixel at which a close camera looks gas up.
+    most_looks: f32,
+    unused: f32,
+    /// Position in the pattern of the first generation, and the step to the next.
+    offset: vec2<f32>,
+    offset_step: vec2<f32>,
 }
 
 @group(#{DATA_GROUP}) @binding(0) var<uniform> disk: DiskFrame;
@@ -89,7 +118,7 @@ fn own_share(half_width: f32) -> f32 {
 /// thinner than a pixel would move in steps of whole pixels, which along a diagonal look like beads. The tent narrows as the image is drawn
 /// no wider than it is, so that all of its light is there at any width.
 fn coverage(d: f32, half_width: f32) -> f32 {
-    let width = max(disk.gas.w * (1.0 - own_share(half_width)), 0.05);
+    let width = max(disk.least_width * (1.0 - own_share(half_width)), 0.05);
     return tent_below((d + half_width) / width) - tent_below((d - half_width) / width);
 }
 

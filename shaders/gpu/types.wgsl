@@ -326,35 +326,57 @@ struct WorkItem {
 }
 
 struct Material {
-    /// Linear base colour; w: alpha.
-    base: vec4<f32>,
-    /// Emitted radiance, linear; w: roughness.
-    emissive: vec4<f32>,
-    /// x: metallic, y: texture layer or −1, z: 1 if the base colour shines by itself, w: 1 if it shines as the engines burn.
-    surface: vec4<f32>,
+    /// Linear base colour.
+    base: vec3<f32>,
+    alpha: f32,
+    /// Emitted radiance, linear.
+    emissive: vec3<f32>,
+    roughness: f32,
+    metallic: f32,
+    /// Of the textures, or −1.
+    layer: f32,
+    /// 1 if the base colour shines by itself.
+    temperature: f32,
+    /// 1 if it shines as the engines burn.
+    nozzle: f32,
 }
 
 struct Star {
-    /// Unit direction on the sky, rain axes; w: flux, in units of a star of magnitude 0.
-    direction: vec4<f32>,
-    /// x: temperature in K; y: luminance of a black body of that temperature, as blackbody_rgb gives it; zw unused.
-    colour: vec4<f32>,
+    /// Unit direction on the sky, rain axes.
+    direction: vec3<f32>,
+    /// In units of a star of magnitude 0.
+    flux: f32,
+    /// In K.
+    temperature: f32,
+    /// Luminance of a black body of that temperature, as blackbody_rgb gives it.
+    luminance: f32,
+    unused_a: f32,
+    unused_b: f32,
 }
 
 struct SeenStar {
-    /// x, y: centre in NDC; z: radius of its spot in pixels (a faint star ends sooner); w unused.
-    place: vec4<f32>,
+    /// Centre in NDC.
+    place: vec2<f32>,
+    /// Of its spot, in pixels: a faint star ends sooner.
+    radius: f32,
     /// Linear light of the whole star, to be spread over its spot.
-    colour: vec4<f32>,
+    colour: vec3<f32>,
 }
 
 /// What is seen of the sky at one corner of a cell of the screen.
 struct SkyCorner {
-    /// x, y: place on the panorama; z: how much sky a pixel covers, in radians; w: 0 within the shadow, else 1.
-    place: vec4<f32>,
-    /// The seen colours of its faintest and of its brightest parts; w: normalised device coordinates.
-    faint: vec4<f32>,
-    bright: vec4<f32>,
+    /// On the panorama.
+    place: vec2<f32>,
+    /// How much sky a pixel covers, in radians.
+    size: f32,
+    /// 0 within the shadow, else 1.
+    lit: f32,
+    /// The seen colours of its faintest and of its brightest parts.
+    faint: vec3<f32>,
+    /// Normalised device coordinates.
+    ndc_x: f32,
+    bright: vec3<f32>,
+    ndc_y: f32,
 }
 
 /// A vertex of a triangle of a thin image.

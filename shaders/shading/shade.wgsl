@@ -37,15 +37,14 @@ struct Surface {
 
 fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> Surface {
     let instance = instance_at(vertex.instance);
-    let material = vertex.material;
-    let kind = materials[material].surface;
+    let material = materials[vertex.material];
     let filled = fill(instance);
-    // Only nozzles (w of `kind`) shine with the engines.
-    let glow = vec4<f32>(vec3<f32>(1.0 - kind.w * instance.engines_off), 1.0);
+    // Only nozzles shine with the engines.
+    let emissive = material.emissive * (1.0 - material.nozzle * instance.engines_off);
     return Surface(position, vec4<f32>(vertex.normal, vertex.shift), vec4<f32>(vertex.leaving, vertex.radius),
         vec3<f32>(vertex.uv, vertex.path), coverage, vec3<f32>(vertex.axis_uv, vertex.from_axis),
-        vec3<u32>(instance.object, instance.order, u32(kind.y + 1.0)), instance.light_red * filled, instance.light_green * filled,
-        instance.light_blue * filled, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive * glow,
+        vec3<u32>(instance.object, instance.order, u32(material.layer + 1.0)), instance.light_red * filled, instance.light_green * filled,
+        instance.light_blue * filled, vec4<f32>(material.base, material.metallic), vec4<f32>(emissive, material.roughness),
         ground_place(instance, before_turning(instance, vertex.normal, vertex.path)));
 }
 

@@ -22,10 +22,10 @@ struct Smooth {
 @vertex
 fn smooth_vertex(@builtin(vertex_index) i: u32) -> Smooth {
     let corner = corners[i];
-    let level = panorama_level(corner.place.z, textureDimensions(milky_way).y);
+    let level = panorama_level(corner.size, textureDimensions(milky_way).y);
     // At the far end of the reversed depth.
-    return Smooth(vec4<f32>(corner.faint.w, corner.bright.w, 0.0, 1.0), vec3<f32>(corner.place.xy, level), corner.faint.rgb,
-        corner.bright.rgb);
+    return Smooth(vec4<f32>(corner.ndc_x, corner.ndc_y, 0.0, 1.0), vec3<f32>(corner.place, level), corner.faint,
+        corner.bright);
 }
 
 @fragment
@@ -41,7 +41,7 @@ struct Exact {
 
 @vertex
 fn exact_vertex(@builtin(vertex_index) i: u32) -> Exact {
-    let ndc = vec2<f32>(corners[i].faint.w, corners[i].bright.w);
+    let ndc = vec2<f32>(corners[i].ndc_x, corners[i].ndc_y);
     return Exact(vec4<f32>(ndc, 0.0, 1.0), ndc);
 }
 

@@ -56,8 +56,7 @@ fn corner(@builtin(global_invocation_id) id: vec3<u32>) {
     for (var k = 0u; k < 2u; k++) {
         colours[k] = frame.sky_brightness * shifted_colour(colours[k], view.g, (flags & FLAG_DOPPLER) != 0u, (flags & FLAG_BEAMING) != 0u);
     }
-    corners[id.x] = SkyCorner(vec4<f32>(view.uv, view.size, select(0.0, 1.0, view.lit)), vec4<f32>(colours[0], ndc.x),
-        vec4<f32>(colours[1], ndc.y));
+    corners[id.x] = SkyCorner(view.uv, view.size, select(0.0, 1.0, view.lit), colours[0], ndc.x, colours[1], ndc.y);
 }
 
 /// One thread per cell: compares the middles of its sides and its centre with what interpolation makes of the corners.
@@ -72,25 +71,27 @@ fn cell(@builtin(global_invocation_id) id: vec3<u32>) {
     let first = row * (columns + 1u) + column;
     // Upper left, upper right, lower left, lower right.
     let vertices = array<u32, 4>(first, first + 1u, first + columns + 1u, first + columns + 2u);
-    let a = corners[vertices[0]].place;
-    let b = corners[vertices[1]].place;
-    let c = corners[vertices[2]].place;
-    let d = corners[vertices[3]].place;
-    var lit = a.w + b.w + c.w + d.w;
-    let low = min(min(a.xy, b.xy), min(c.xy, d.xy));
-    let high = max(max(a.xy, b.xy), max(c.xy, d.xy));
+    let a = corners[vertices[0]];
+    let b = corners[vertices[1]];
+    let c = corners[vertices[2]];
+    let d = corners[vertices[3]];
+    var lit = a.lit + b.lit + c.lit + d.lit;
+    let low = min(min(a.place, b.place), min(c.place, d.place));
+    let high = max(max(a.place, b.place), max(c.place, d.place));
     var smooth_cell = high.x - low.x < 0.25;
     for (var k = 0u; k < 5u; k++) {
         var place = vec2<f32>(0.5, 0.5);
-        var mean = 0.5 * (b + c);
-        if k == 1u { place = vec2<f32>(0.5, 0.0); mean = 0.5 * (a + b); }
-        if k == 2u { place = vec2<f32>(0.5, 1.0); mean = 0.5 * (c + d); }
-        if k == 3u { place = vec2<f32>(0.0, 0.5); mean = 0.5 * (a + c); }
-        if k == 4u { place = vec2<f32>(1.0, 0.5); mean = 0.5 * (b + d); }
+        var between = array<SkyCorner, 2>(b, c);
+        if k == 1u { place = vec2<f32>(0.5, 0.0); between = array<SkyCorner, 2>(a, b); }
+        if k == 2u { place = vec2<f32>(0.5, 1.0); between = array<SkyCorner, 2>(c, d); }
+        if k == 3u { place = vec2<f32>(0.0, 0.5); between = array<SkyCorner, 2>(a, c); }
+        if k == 4u { place = vec2<f32>(1.0, 0.5); between = array<SkyCorner, 2>(b, d); }
+        let mean = 0.5 * (between[0].place + between[1].place);
+        let size = 0.5 * (between[0].size + between[1].size);
         let view = sky_view(cell_ndc(vec2<f32>(f32(column), f32(row)) + place));
-        let off = (view.uv - mean.xy) * vec2<f32>(2.0 * PI * sin(PI * view.uv.y), PI);
+        let off = (view.uv - mean) * vec2<f32>(2.0 * PI * sin(PI * view.uv.y), PI);
         lit += select(0.0, 1.0, view.lit);
-        smooth_cell &= view.lit && length(off) < SKY_ERROR * view.size && abs(log2(mean.z / view.size)) < 0.5;
+        smooth_cell &= view.lit && length(off) < SKY_ERROR * view.size && abs(log2(size / view.size)) < 0.5;
     }
     // All within the shadow, which is a disc: black, as the picture is to begin with.
     if lit == 0.0 {

@@ -17,9 +17,9 @@ fn vertex(@builtin(vertex_index) i: u32) -> Spot {
     // The triangle round the spot: a third more pixels than a square, but half the triangles, and these are what a software driver pays
     // for.
     let corners = array<vec2<f32>, 3>(vec2<f32>(-1.7320508, -1.0), vec2<f32>(1.7320508, -1.0), vec2<f32>(0.0, 2.0));
-    let corner = corners[i % 3u] * star.place.z;
+    let corner = corners[i % 3u] * star.radius;
     // A depth just nearer than the sky's: everything solid hides it.
-    return Spot(vec4<f32>(star.place.xy + corner * 2.0 / frame.size, 1e-12, 1.0), corner, star.colour.rgb);
+    return Spot(vec4<f32>(star.place + corner * 2.0 / frame.size, 1e-12, 1.0), corner, star.colour);
 }
 
 @fragment

@@ -52,11 +52,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // A loop that ends is all that software drivers skip work by: a branch is run through by all.
     for (var i = id.x % LANES; i < cluster.y; i += LANES) {
         let star = stars[cluster.x + i];
-        if star.direction.w < frame.faintest_star {
+        if star.flux < frame.faintest_star {
             break;
         }
-        let cos_phi = clamp(dot(star.direction.xyz, n), -1.0, 1.0);
-        let across = star.direction.xyz - n * cos_phi;
+        let cos_phi = clamp(dot(star.direction, n), -1.0, 1.0);
+        let across = star.direction - n * cos_phi;
         let sin_phi = length(across);
         let phi = atan2(sin_phi, cos_phi);
         let turn = select(1.0, -1.0, order == 2u);
@@ -69,7 +69,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let doppler = camera_doppler(look);
         // dΩ_camera/dΩ_sky = (sinψ dψ)/(sinΦ dΦ) / D²; dψ/dΦ = gap · ds/dΦ.
         let magnification = sin_psi * gap * s.y / max(sin_phi, STAR_DISC) / (doppler * doppler);
-        let flux = star.direction.w * magnification * frame.star_brightness;
+        let flux = star.flux * magnification * frame.star_brightness;
         let g = sky_ratio(cos_psi, doppler);
         let exposed = flux * max(g * g * g * g, 1.0) * exposure;
         if (exposed * sure < LEAST) & (sin_phi > NEAR_AXIS) {
@@ -80,16 +80,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if (exposed < LEAST) | (camera.z >= 0.0) | any(abs(ndc) > margin) {
             continue;
         }
-        let light = blackbody_rgb(star.colour.x * select(1.0, g, (flags & FLAG_DOPPLER) != 0u));
+        let light = blackbody_rgb(star.temperature * select(1.0, g, (flags & FLAG_DOPPLER) != 0u));
         // The catalogue gives light as seen: a black body at T of that luminance. At gT it is as much brighter as the black body is.
-        let colour = light * flux / max(select(luminance(light), star.colour.y, (flags & FLAG_BEAMING) != 0u), 1e-30);
+        let colour = light * flux / max(select(luminance(light), star.luminance, (flags & FLAG_BEAMING) != 0u), 1e-30);
         // Three vertices a star, and one instance: software drivers pay for each instance.
         let slot = atomicAdd(&star_draw.vertices, 3u) / 3u;
         if slot >= arrayLength(&seen_stars) {
             atomicSub(&star_draw.vertices, 3u);
             break;
         }
-        seen_stars[slot] = SeenStar(vec4<f32>(ndc, frame.star_sigma * select(3.6, 2.2, luminance(colour) * exposure < 0.1), 0.0),
-            vec4<f32>(min(colour, vec3<f32>(6e4)), 1.0));
+        seen_stars[slot] = SeenStar(ndc, frame.star_sigma * select(3.6, 2.2, luminance(colour) * exposure < 0.1),
+            min(colour, vec3<f32>(6e4)));
     }
 }

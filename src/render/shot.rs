@@ -85,8 +85,8 @@ pub fn surroundings() -> Surroundings {
 }
 
 fn star(star: &scene::sky::stars::Star) -> Star {
-    let [x, y, z] = star.direction.to_array();
-    Star { direction: [x, y, z, star.flux], colour: [star.temperature, 0.0, 0.0, 0.0] }
+    let scene::sky::stars::Star { direction, flux, temperature, .. } = *star;
+    Star { direction: direction.to_array(), flux, temperature, luminance: 0.0, unused: [0.0; 2] }
 }
 
 /// Draws the picture.

@@ -252,7 +252,7 @@ impl Stage {
         // Only the planet is lit by it.
         let globe = self.objects.iter().position(|(object, _)| object.body == Body::Planet);
         if let (Some(ground), Some(number)) = (aurora.ground.as_mut(), globe) {
-            ground.light.planet[0] = number as u32 + 1;
+            ground.light.planet = number as u32 + 1;
         }
         Some(aurora)
     }

@@ -22,7 +22,7 @@ fn picture(stars: &[Star], haze: f32, camera: Observer, size: [u32; 2], settings
 
 fn star(direction: DVec3, flux: f32) -> Star {
     let d = direction.normalize();
-    Star { direction: [d.x as f32, d.y as f32, d.z as f32, flux], colour: [5772.0, 0.0, 0.0, 0.0] }
+    Star { direction: d.as_vec3().to_array(), flux, temperature: 5772.0, luminance: 0.0, unused: [0.0; 2] }
 }
 
 /// A camera 10⁵ r_s away that looks along −z, across the direction of the hole.

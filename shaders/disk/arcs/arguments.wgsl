@@ -13,7 +13,7 @@ struct DiskArguments {
 
 @compute @workgroup_size(1)
 fn before_mesh() {
-    let count = min(atomicLoad(&disk_counters.vertices), disk.room.x - disk.sizes.x * disk.sizes.z);
+    let count = min(atomicLoad(&disk_counters.vertices), disk.vertex_room - disk.columns * disk.rows);
     disk_counters.stage = 1u;
     arguments.mesh = vec4<u32>((count + 63u) / 64u, 1u, 1u, 0u);
 }

@@ -31,5 +31,5 @@ fn table_bend(number: u32) -> vec4<f32> {
 
 /// The end of a list of triangles in the indices.
 fn end_of(list: u32) -> u32 {
-    return select(disk.regions[min(list + 1u, 3u)], disk.room.w, list == 3u);
+    return select(disk.regions[min(list + 1u, 3u)], disk.regions_end, list == 3u);
 }

@@ -74,7 +74,7 @@ fn far_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
 /// Orders 2 and 3, from far.
 @fragment
 fn thin_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
-    return far_colour(in, ring) * (coverage(in.seen.x, in.seen.y) * disk.gas.y);
+    return far_colour(in, ring) * (coverage(in.seen.x, in.seen.y) * disk.filled);
 }
 
 /// The turning by the orbits is not linear over a triangle: each pixel computes it.
@@ -146,7 +146,7 @@ const WIDE: f32 = 1e5;
 @fragment
 fn near_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
     let here = of_ring(in, ring);
-    let most = min(disk.light.z, f32(CLOSE_TAPS));
+    let most = min(disk.most_looks, f32(CLOSE_TAPS));
     let at = streaks_of(in, here.height, STEP * most);
     let long = sqrt(at.long);
     let share = smoothstep(LONG.x, LONG.y, long);
@@ -155,7 +155,7 @@ fn near_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
     let near = near_along(at, select(0u, u32(clamp(ceil(long / FINE_STEP), 1.0, min(FINE_TAPS, most))), share < 1.0));
     let cooling = Cooling(mix(near.power, far.power, share), mix(near.unseen, far.unseen, share));
     let depth = here.depth * disk_slant(in.seen.w, in.seen.z, near_half_height(here.height));
-    let part = select(coverage(in.seen.x, in.seen.y) * disk.gas.y, in.seen.x, in.seen.y > WIDE);
+    let part = select(coverage(in.seen.x, in.seen.y) * disk.filled, in.seen.x, in.seen.y > WIDE);
     return bent_colour(in.light.rgb, in.slope.xyz, depth, cooling, here.brighter) * part;
 }
 
@@ -169,5 +169,5 @@ fn beyond_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
 
 /// Half height of the disk at a height in the pattern: thickness times the radius there.
 fn near_half_height(height: f32) -> f32 {
-    return max(bitcast<f32>(disk.room.z) * exp2(4.0 * height), 1e-3);
+    return max(disk.thickness * exp2(4.0 * height), 1e-3);
 }

@@ -58,7 +58,7 @@ fn brightest(x: f32, v: f32) -> f32 {
 
 /// The variance of ln T by streaks.
 fn streak_variance() -> f32 {
-    return VARIANCE * 0.0625 * disk.gas.x * disk.gas.x;
+    return VARIANCE * 0.0625 * disk.contrast * disk.contrast;
 }
 
 /// A mix of the mean gas of a thin image (x: ln of the seen temperature, y: optical depth along the ray; without streaks) and a circle's
@@ -135,7 +135,7 @@ fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency
 
 /// Half the width that a thin image is drawn with, in pixels.
 fn drawn_half(half: f32) -> f32 {
-    return half + (disk.gas.w + SOFT) * (1.0 - own_share(half));
+    return half + (disk.least_width + SOFT) * (1.0 - own_share(half));
 }
 
 /// What the second image, where it is drawn thin, stops of light that comes through the gas of its circles: x of all light, y of the light
@@ -144,7 +144,7 @@ fn drawn_half(half: f32) -> f32 {
 /// middle of the second, which has the half width `half`, under a tent, and whose gas has the mean optical depth `depth`.
 fn second_before(d: f32, half: f32, depth: f32) -> vec2<f32> {
     // Over the tent by three points with its variance, 1/6.
-    let aside = 0.57735027 * disk.gas.w;
+    let aside = 0.57735027 * disk.least_width;
     let covered = 0.5 * coverage(d, half) + 0.25 * (coverage(d - aside, half) + coverage(d + aside, half));
     let own = own_share(half);
     return covered * vec2<f32>((1.0 - own) * (1.0 - exp(-depth)), own);
@@ -176,9 +176,9 @@ fn half_plane_of(at: Bearing) -> HalfPlane {
     let s = at.sine;
     let c = at.cosine;
     let halves = select(vec2<f32>(0.5 - 0.5 * c, 0.5 * s * s / (1.0 - c)), vec2<f32>(0.5 * s * s / (1.0 + c), 0.5 + 0.5 * c), c > 0.0);
-    let up = -disk.towards.w * c;
+    let up = -disk.camera_sine * c;
     let reach = sqrt(up * up + s * s);
-    return HalfPlane((disk.upwards.xyz * up + disk.sideways.xyz * s) / max(reach, 1e-12), reach, halves);
+    return HalfPlane((disk.upwards * up + disk.sideways * s) / max(reach, 1e-12), reach, halves);
 }
 
 /// The rays that a vertex needs.
@@ -219,8 +219,8 @@ fn rays_of(row: u32, at: Bearing, plane: HalfPlane) -> Rays {
         let opposite = k > 2u;
         let there = circles[which];
         let r = select(there.gas.x, there.place.y, beside);
-        let ahead = select(at.cosine, -at.cosine, opposite) * disk.sideways.w;
-        let along = there.place.x + (r - there.gas.x) * disk.sideways.w - 2.0 * r * disk.sideways.w
+        let ahead = select(at.cosine, -at.cosine, opposite) * disk.camera_cosine;
+        let along = there.place.x + (r - there.gas.x) * disk.camera_cosine - 2.0 * r * disk.camera_cosine
             * select(plane.halves.x, plane.halves.y, opposite);
         let found = lens_lookup_at(along - r * aside * reach, r * (reach + aside * ahead), r * (ahead - aside * reach),
             select(order, 2u, opposite));
@@ -253,8 +253,8 @@ fn open_gap(row: u32, at: Bearing, plane: HalfPlane, rays: Rays) -> f32 {
     let ray = rays.ray;
     let pixel = frame.pixel * pixel_of(n * ray.cos_psi + plane.side * ray.sin_psi, plane.side * ray.cos_psi - n * ray.sin_psi);
     // Across the circle, from its direction on the screen: towards the axis and round it per radian of θ.
-    let across = (rays.psi.z - rays.psi.x) / step_aside(at) * disk.sideways.w * at.sine / max(plane.reach, 1e-12);
-    let way = vec2<f32>(across, ray.sin_psi * disk.upwards.w / max(plane.reach * plane.reach, 1e-12));
+    let across = (rays.psi.z - rays.psi.x) / step_aside(at) * disk.camera_cosine * at.sine / max(plane.reach, 1e-12);
+    let way = vec2<f32>(across, ray.sin_psi * disk.steepness / max(plane.reach * plane.reach, 1e-12));
     let dark = circle.place.w * abs(rays.psi.x - rays.psi.y) * abs(way.y) / max(length(way), 1e-12) / pixel;
     let ring = dark * (1.0 - gap) / gap;
     return min(smoothstep(SEEN_GAP.x, SEEN_GAP.y, dark), 1.0 - clamp((LEAST_RING - ring) / max(dark, 1e-6), 0.0, 1.0));
@@ -372,9 +372,9 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     vertex.apparent = vec4<f32>(apparent, ray.delay);
 
     // The photon and the gas at the point, rain axes.
-    let outward = disk.towards.xyz * c + disk.sideways.xyz * s;
-    let along_orbit = disk.sideways.xyz * c - disk.towards.xyz * s;
-    let tangent = (plane.side * (c * disk.sideways.w) - n * plane.reach) * turn;
+    let outward = disk.towards * c + disk.sideways * s;
+    let along_orbit = disk.sideways * c - disk.towards * s;
+    let tangent = (plane.side * (c * disk.camera_cosine) - n * plane.reach) * turn;
     let leaving = outward * ray.emission_radial - tangent * ray.emission_tangential;
     let momentum = outward * circle.motion.x + along_orbit * circle.motion.y;
     let gamma = sqrt(1.0 + dot(momentum, momentum));
@@ -389,7 +389,7 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     let own = SeenGas(vec2<f32>(circle.gas.z + log(g), circle.gas.w), log(g));
     let gas = seen_gas(row, own, slant, azimuth, rays, seen, share);
     // From near, the slant is computed in each pixel.
-    let along_ray = select(slant, 1.0, order <= disk.room.y);
+    let along_ray = select(slant, 1.0, order <= disk.near_orders);
     vertex.gas = vec4<f32>(turns, circle.motion.w, gas.shown.x, gas.shown.y * along_ray);
     vertex.more = vec4<f32>(gas.ln_g, cosine, seen.thin);
     vertex.bend = bend_of(row, at, azimuth, own_share(seen.thin.y));

@@ -12,13 +12,13 @@ const MOST_SEGMENTS: u32 = 128u;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let arcs = disk.sizes.y;
-    if id.x >= arcs * disk.sizes.z {
+    let arcs = disk.arcs;
+    if id.x >= arcs * disk.rows {
         return;
     }
     let row = id.x / arcs;
     let arc = id.x % arcs;
-    let first = row * disk.sizes.x + 2u * arc;
+    let first = row * disk.columns + 2u * arc;
     let a = disk_vertices[first].apparent;
     let m = disk_vertices[first + 1u].apparent;
     let b = disk_vertices[first + 2u].apparent;
@@ -37,13 +37,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // half a pixel to two wide was uneven by a tenth, with this by a sixteenth. Wide images of orders 2 and 3 are not lines, but all of the
     // disk is narrow in them: with the whole budget gas was moved so far that a ball behind it had 0.52 of its light left instead of 0.64.
     let half = min(min(disk_vertices[first].more.w, disk_vertices[first + 1u].more.w), disk_vertices[first + 2u].more.w);
-    let budget = disk.gas.z * select(mix(0.35, 0.6, own_share(half)), 1.0, circles[row].rows.x == 1u);
+    let budget = disk.error_budget * select(mix(0.35, 0.6, own_share(half)), 1.0, circles[row].rows.x == 1u);
     var count = u32(clamp(ceil(sqrt(error / budget)), 1.0, f32(MOST_SEGMENTS)));
     var extra = 0u;
     if count > 2u {
         extra = atomicAdd(&disk_counters.vertices, count - 1u);
-        let grid = disk.sizes.x * disk.sizes.z;
-        if grid + extra + count - 1u > disk.room.x {
+        let grid = disk.columns * disk.rows;
+        if grid + extra + count - 1u > disk.vertex_room {
             // No room: the arc is drawn with its middle only. Nothing is given back, as another thread may have asked since.
             atomicAdd(&disk_counters.coarse, 1u);
             count = 2u;

@@ -6,8 +6,8 @@
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let arcs = disk.sizes.y;
-    if id.x >= arcs * disk.sizes.w {
+    let arcs = disk.arcs;
+    if id.x >= arcs * disk.rings {
         return;
     }
     let ring = ring_of(id.x / arcs);
@@ -17,8 +17,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if (inner.w & outer.w) != 0u {
         return;
     }
-    let first_inner = ring.x * disk.sizes.x + 2u * arc;
-    let first_outer = ring.y * disk.sizes.x + 2u * arc;
+    let first_inner = ring.x * disk.columns + 2u * arc;
+    let first_outer = ring.y * disk.columns + 2u * arc;
     var nearest = 1e9;
     for (var k = 0u; k < 3u; k++) {
         nearest = min(nearest, min(disk_vertices[first_inner + k].apparent.w, disk_vertices[first_outer + k].apparent.w));
@@ -28,7 +28,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let total = inner.x + outer.x;
     let order = ring.z;
-    let beyond = order == 1u && disk.room.y > 0u && nearest > disk.light.y;
+    let beyond = order == 1u && disk.near_orders > 0u && nearest > disk.close;
     let list = select(order - 1u, 3u, beyond);
     let end = end_of(list);
     var slot = disk.regions[list] + atomicAdd(&disk_counters.indices[list], 3u * total);
@@ -73,5 +73,5 @@ fn point(first: u32, segment: vec4<u32>, i: u32) -> u32 {
     if segment.x == 2u {
         return first + 1u;
     }
-    return disk.sizes.x * disk.sizes.z + segment.y + i - 1u;
+    return disk.columns * disk.rows + segment.y + i - 1u;
 }

@@ -8,11 +8,11 @@
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let columns = disk.sizes.x;
-    let arcs = disk.sizes.y;
-    let grid = columns * disk.sizes.z;
+    let columns = disk.columns;
+    let arcs = disk.arcs;
+    let grid = columns * disk.rows;
     let halved = disk_counters.stage == 1u;
-    if id.x >= select(grid, min(atomicLoad(&disk_counters.vertices), disk.room.x - grid), halved) {
+    if id.x >= select(grid, min(atomicLoad(&disk_counters.vertices), disk.vertex_room - grid), halved) {
         return;
     }
     // x: arc of a circle, counted along all rows; y of z: how far along it.
@@ -27,5 +27,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let cut = job.x % arcs;
     let sigma = mix(cuts[cut], cuts[cut + 1u], f32(job.y) / f32(job.z));
-    disk_vertices[slot] = disk_vertex(job.x / arcs, bearing(sigma, disk.upwards.w));
+    disk_vertices[slot] = disk_vertex(job.x / arcs, bearing(sigma, disk.steepness));
 }

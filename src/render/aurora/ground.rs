@@ -21,10 +21,17 @@ use crate::scene::blackbody::xyz_to_rgb;
 #[repr(C)]
 #[allow(missing_docs, reason = "documented once, in shaders/shading/aurora_light.wgsl")]
 pub struct GroundLight {
-    pub dipole: [[f32; 4]; 3],
-    pub colour: [f32; 4],
-    pub map: [f32; 4],
-    pub planet: [u32; 4],
+    pub dipole_x: [f32; 3],
+    pub planet: u32,
+    pub dipole_y: [f32; 3],
+    pub both_poles: u32,
+    pub dipole_z: [f32; 3],
+    pub per_radian: f32,
+    pub colour: [f32; 3],
+    pub older: f32,
+    pub pole: [f32; 2],
+    pub half_texel: f32,
+    pub unused: f32,
 }
 
 /// The light on the ground as the shading of surfaces needs it.
@@ -168,15 +175,20 @@ impl Ground {
     pub fn frame(&mut self, rows: &NodeHistory, ahead: f64, midnight: DVec2, kilo: f64, dipole: DQuat, both: bool) -> GroundFrame {
         self.follow(rows, midnight);
         let (corner, side) = self.map.square();
-        let [x, y] = [-corner.x / side, -corner.y / side].map(|x| x as f32);
-        let [red, green, blue] = self.glow.colour(kilo).map(|x| x as f32);
-        let turn = Mat3::from_quat(dipole.inverse().as_quat());
+        let [dipole_x, dipole_y, dipole_z] = Mat3::from_quat(dipole.inverse().as_quat()).to_cols_array_2d();
         GroundFrame {
             light: GroundLight {
-                dipole: turn.to_cols_array_2d().map(|[x, y, z]| [x, y, z, 0.0]),
-                colour: [red, green, blue, ahead.clamp(0.0, 1.0) as f32],
-                map: [x, y, ((PLANET_RADIUS + REFERENCE_HEIGHT) / side) as f32, 0.5 / self.map.size() as f32],
-                planet: [0, u32::from(both), 0, 0],
+                dipole_x,
+                planet: 0,
+                dipole_y,
+                both_poles: u32::from(both),
+                dipole_z,
+                per_radian: ((PLANET_RADIUS + REFERENCE_HEIGHT) / side) as f32,
+                colour: self.glow.colour(kilo).map(|x| x as f32),
+                older: ahead.clamp(0.0, 1.0) as f32,
+                pole: [-corner.x / side, -corner.y / side].map(|x| x as f32),
+                half_texel: 0.5 / self.map.size() as f32,
+                unused: 0.0,
             },
             size: self.map.size() as u32,
             texels: self.texels.clone(),

@@ -8,7 +8,7 @@ use crate::render::Gpu;
 use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, TableTexture, bind, buffer, compute, layout, module, raster_of};
 use crate::render::gpu::shaders::Pass;
 
-use crate::render::disk::types::{self, DiskCounters, DiskVertex};
+use crate::render::disk::types::{self, DiskCounters, DiskFrame, DiskVertex};
 use crate::render::disk::view::DiskView;
 
 /// Room for the vertices of segments.
@@ -115,11 +115,11 @@ impl ArcPass {
 
     /// Uploads what the frame needs and fills in the places in its buffers. `frame` is the uniform buffer of the shaders.
     pub fn prepare(&mut self, gpu: &Gpu, view: &mut DiskView, frame: &wgpu::Buffer) {
-        let [columns, arcs, rows, rings] = view.frame.sizes;
+        let DiskFrame { columns, arcs, rows, rings, .. } = view.frame;
         let grid = columns * rows;
-        view.frame.room[0] = grid + EXTRA;
+        view.frame.vertex_room = grid + EXTRA;
         view.frame.regions = ArcPass::lists();
-        view.frame.room[3] = INDICES.iter().sum();
+        view.frame.regions_end = INDICES.iter().sum();
         self.threads = [grid, arcs * rows, arcs * rings];
         self.close = view.close;
         let device = &gpu.device;
@@ -127,7 +127,7 @@ impl ArcPass {
         replaced |= self.cuts.write(gpu, &view.cuts);
         replaced |= self.rings.write(gpu, &view.rings);
         replaced |= self.bends.write(gpu, &view.bends);
-        replaced |= self.seen.reserve(device, u64::from(view.frame.room[0]) * size_of::<DiskVertex>() as u64);
+        replaced |= self.seen.reserve(device, u64::from(view.frame.vertex_room) * size_of::<DiskVertex>() as u64);
         replaced |= self.segment_buffer.reserve(device, 16 * u64::from(arcs * rows));
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&DiskCounters::default()));
         if replaced || self.group.is_none() {

@@ -129,23 +129,34 @@ impl DiskView {
         let base = ((time - nearest - 2.0 * end - DETOUR) / RENEWAL).floor() - 1.0;
         let [x, y] = disk.gas.offset(base as i64);
         let cuts = self.cuts.len() as u32;
-        let row = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
         DiskFrame {
-            towards: row(plane.towards, plane.height),
-            sideways: row(plane.sideways, plane.level),
-            upwards: row(plane.upwards, plane.height.abs()),
-            renewal: [(time / RENEWAL - base) as f32, (1.0 / RENEWAL) as f32, RENEWAL as f32, SHEARED as f32],
-            gas: [
-                disk.gas.contrast as f32,
-                1.0 - disk.config.gap as f32,
-                disk.config.error_budget as f32 * settings.ring_error,
-                disk.min_width as f32,
-            ],
-            sizes: [2 * cuts - 1, cuts - 1, self.circles.len() as u32, self.rings.len() as u32],
-            regions: [0; 4],
-            room: [0, self.close, (disk.gas.thickness as f32).to_bits(), 0],
-            light: [DISK_UNIT as f32, CLOSE as f32, settings.gas_looks, 0.0],
-            offset: [x, y, OFFSET_STEP[0], OFFSET_STEP[1]].map(|value| value as f32),
+            towards: plane.towards.as_vec3().to_array(),
+            camera_sine: plane.height as f32,
+            sideways: plane.sideways.as_vec3().to_array(),
+            camera_cosine: plane.level as f32,
+            upwards: plane.upwards.as_vec3().to_array(),
+            steepness: plane.height.abs() as f32,
+            renewals: (time / RENEWAL - base) as f32,
+            renewals_per_time: (1.0 / RENEWAL) as f32,
+            renewal: RENEWAL as f32,
+            newborn: SHEARED as f32,
+            contrast: disk.gas.contrast as f32,
+            filled: 1.0 - disk.config.gap as f32,
+            error_budget: disk.config.error_budget as f32 * settings.ring_error,
+            least_width: disk.min_width as f32,
+            columns: 2 * cuts - 1,
+            arcs: cuts - 1,
+            rows: self.circles.len() as u32,
+            rings: self.rings.len() as u32,
+            near_orders: self.close,
+            thickness: disk.gas.thickness as f32,
+            unit: DISK_UNIT as f32,
+            close: CLOSE as f32,
+            most_looks: settings.gas_looks,
+            offset: [x, y].map(|value| value as f32),
+            offset_step: OFFSET_STEP.map(|value| value as f32),
+            // The room and the lists are those of the pass.
+            ..DiskFrame::default()
         }
     }
 }

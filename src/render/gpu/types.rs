@@ -221,9 +221,14 @@ pub struct SeenVertex {
 #[repr(C)]
 #[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
 pub struct Material {
-    pub base: [f32; 4],
-    pub emissive: [f32; 4],
-    pub surface: [f32; 4],
+    pub base: [f32; 3],
+    pub alpha: f32,
+    pub emissive: [f32; 3],
+    pub roughness: f32,
+    pub metallic: f32,
+    pub layer: f32,
+    pub temperature: f32,
+    pub nozzle: f32,
 }
 
 /// `Star` in WGSL.
@@ -231,8 +236,11 @@ pub struct Material {
 #[repr(C)]
 #[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
 pub struct Star {
-    pub direction: [f32; 4],
-    pub colour: [f32; 4],
+    pub direction: [f32; 3],
+    pub flux: f32,
+    pub temperature: f32,
+    pub luminance: f32,
+    pub unused: [f32; 2],
 }
 
 /// `Counters` in WGSL: what the stages of geometry counted.

@@ -179,16 +179,16 @@ impl ModelSet {
         self.triangles.extend(prepared.triangles);
         for material in &model.materials {
             let layer = material.texture.as_ref().and_then(|image| self.layer(image));
-            let [r, g, b] = material.emissive;
+            let [red, green, blue, alpha] = material.base_colour;
             self.materials.push(Material {
-                base: material.base_colour,
-                emissive: [r, g, b, material.roughness],
-                surface: [
-                    material.metallic,
-                    layer.map_or(-1.0, |layer| layer as f32),
-                    material.temperature,
-                    f32::from(u8::from(material.drive)),
-                ],
+                base: [red, green, blue],
+                alpha,
+                emissive: material.emissive,
+                roughness: material.roughness,
+                metallic: material.metallic,
+                layer: layer.map_or(-1.0, |layer| layer as f32),
+                temperature: material.temperature,
+                nozzle: f32::from(u8::from(material.drive)),
             });
         }
         range

@@ -65,12 +65,12 @@ fn arranged(stars: &[Star]) -> Arranged {
     };
     let mut sorted = stars.to_vec();
     // Fluxes are positive, and the bits of such numbers are in their order.
-    sorted.sort_by_cached_key(|star| (cell(star), Reverse(star.direction[3].max(0.0).to_bits())));
+    sorted.sort_by_cached_key(|star| (cell(star), Reverse(star.flux.max(0.0).to_bits())));
     let mut clusters = Vec::new();
     let mut regions = Vec::new();
     let mut first = 0;
     let cluster = |first: u32, part: &[Star]| {
-        let direction = |star: &Star| DVec3::from_slice(&star.direction.map(f64::from)[..3]).normalize_or(DVec3::Z);
+        let direction = |star: &Star| DVec3::from_array(star.direction.map(f64::from)).normalize_or(DVec3::Z);
         let middle = part.iter().map(direction).sum::<DVec3>().normalize_or(DVec3::Z);
         let spread = part.iter().map(|star| middle.angle_between(direction(star))).fold(0.0, f64::max);
         Cluster { first, count: part.len() as u32, middle, spread }
@@ -137,8 +137,8 @@ impl Stars {
         let device = &gpu.device;
         let Arranged { stars: mut sorted, clusters, regions } = arranged(stars);
         for star in &mut sorted {
-            let rgb = blackbody::lookup(table, BLACKBODY_COLDEST, BLACKBODY_HOTTEST, star.colour[0]);
-            star.colour[1] = blackbody::luminance(rgb.map(f64::from)) as f32;
+            let rgb = blackbody::lookup(table, BLACKBODY_COLDEST, BLACKBODY_HOTTEST, star.temperature);
+            star.luminance = blackbody::luminance(rgb.map(f64::from)) as f32;
         }
         let catalogue = storage(gpu, "stars", &sorted);
         let listed = Growing::new(device, "star clusters", wgpu::BufferUsages::STORAGE);
@@ -231,7 +231,7 @@ mod tests {
             let z = 1.0 - 2.0 * (f64::from(k) + 0.5) / 20_000.0;
             let azimuth = f64::from(k) * 2.399_963;
             let d = DVec3::new((1.0 - z * z).sqrt() * azimuth.cos(), (1.0 - z * z).sqrt() * azimuth.sin(), z);
-            stars.push(Star { direction: [d.x as f32, d.y as f32, d.z as f32, 1.0], colour: [5000.0, 0.0, 0.0, 0.0] });
+            stars.push(Star { direction: d.as_vec3().to_array(), flux: 1.0, temperature: 5000.0, luminance: 0.0, unused: [0.0; 2] });
         }
         let Arranged { stars: sorted, clusters, regions } = arranged(&stars);
         let mut on_screen = 0;
@@ -255,7 +255,7 @@ mod tests {
                     let keep = may_be_seen(&region.all, order) && may_be_seen(cluster, order);
                     kept += u32::from(keep);
                     for star in &sorted[cluster.first as usize..(cluster.first + cluster.count) as usize] {
-                        let d = DVec3::from_slice(&star.direction.map(f64::from)[..3]).normalize();
+                        let d = DVec3::from_array(star.direction.map(f64::from)).normalize();
                         let phi = d.angle_between(n);
                         let side = (d - n * d.dot(n)).normalize_or_zero();
                         let (swept, turn) = if order == 1 { (phi, 1.0) } else { (TAU - phi, -1.0) };

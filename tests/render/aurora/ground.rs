@@ -140,7 +140,7 @@ fn without_an_aurora_the_ground_is_as_it_was() {
     // What is not the planet is not lit.
     let aurora = other.aurora.as_mut().unwrap();
     aurora.colours.iter_mut().for_each(|colours| colours.lines = Default::default());
-    aurora.ground.as_mut().unwrap().light.planet[0] += 1;
+    aurora.ground.as_mut().unwrap().light.planet += 1;
     assert_eq!(green(&mut renderer, &other), dark);
     config.aurora.enabled = false;
     let stage = Stage::new(&mut renderer, &scene, &config);

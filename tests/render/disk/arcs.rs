@@ -38,11 +38,11 @@ fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Observer) -> Drawn {
     let whole = bytes.len() / size_of::<DiskVertex>() * size_of::<DiskVertex>();
     let all: Vec<DiskVertex> = bytemuck::cast_slice(&bytes[..whole]).to_vec();
     let origin = camera.position.y.atan2(camera.position.x);
-    let columns = view.frame.sizes[0] as usize;
+    let columns = view.frame.columns as usize;
     let mut grid = Vec::new();
     for (row, circle) in view.circles.iter().enumerate() {
         for column in (0..columns).step_by(2) {
-            let azimuth = bearing(f64::from(view.cuts[column / 2]), f64::from(view.frame.upwards[3]))[0] + origin;
+            let azimuth = bearing(f64::from(view.cuts[column / 2]), f64::from(view.frame.steepness))[0] + origin;
             grid.push((all[row * columns + column], f64::from(circle.gas[0]), azimuth, circle.rows[0]));
         }
     }

@@ -120,10 +120,12 @@ fn triangles_without_area_are_told_from_those_that_leave_a_cap() {
         truths.push((distance < radius) != within);
     }
     let body = "
+#import lensrunner::gpu::types::Cap
 #import lensrunner::instances::bounds::leaves_cap
 if id.x % 4u != 0u { return; }
 let k = id.x;
-let leaves = leaves_cap(twin_rows[k + 3u], row.xyz, twin_rows[k + 1u].xyz, twin_rows[k + 2u].xyz);
+let cap = Cap(twin_rows[k + 3u].xyz, twin_rows[k + 3u].w);
+let leaves = leaves_cap(cap, row.xyz, twin_rows[k + 1u].xyz, twin_rows[k + 2u].xyz);
 twin_out[k] = vec4<f32>(select(0.0, 1.0, leaves), 0.0, 0.0, 0.0);";
     let found = run(Pass::Mesh, body, [&[], &[]], &rows, 1);
     let wrong: Vec<[Vec3; 4]> = (0..truths.len())
