@@ -23,7 +23,7 @@ fn race(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     var seen = vec4<f32>(0.0);
     var sent = vec4<f32>(0.0);
-    for (var k = 0u; k < u32(frame.radial.x); k++) {
+    for (var k = 0u; k < u32(frame.lookups); k++) {
         let row = race_rows[(id.x + k * APART) % arrayLength(&race_rows)];
         let code = u32(row.w);
         let ray = method_ray(row.x, row.y, row.z, code % 4u, select(YOUNG, OLD, code >= 4u));
@@ -40,8 +40,8 @@ fn idle(@builtin(global_invocation_id) id: vec3<u32>) {
     if 2u * id.x + 1u >= arrayLength(&race_out) {
         return;
     }
-    var sum = vec4<f32>(frame.radial.w * 0.0) + lens_texel(0u);
-    for (var k = 0u; k < u32(frame.radial.x); k++) {
+    var sum = vec4<f32>(frame.camera_radius * 0.0) + lens_texel(0u);
+    for (var k = 0u; k < u32(frame.lookups); k++) {
         sum += race_rows[(id.x + k * APART) % arrayLength(&race_rows)];
     }
     race_out[2u * id.x] = sum;

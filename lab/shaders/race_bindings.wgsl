@@ -3,7 +3,12 @@
 // What the lookup reads, where the chart of methods times it alone.
 
 struct RaceFrame {
-    radial: vec4<f32>, // x: look-ups of each thread, w: the camera's radius
+    /// Look-ups of each thread.
+    lookups: f32,
+    unused_a: f32,
+    unused_b: f32,
+    /// In r_s, as in the frame of the game.
+    camera_radius: f32,
 }
 
 /// As in shaders/gpu/bindings.wgsl.
