@@ -8,7 +8,7 @@ use lensrunner::argument::whole;
 use lensrunner_lab::chart::{ChartError, Output, announce};
 use lensrunner_lab::projection::race::Race;
 use lensrunner_lab::{
-    aurora, aurora_race, bvh, dial, disk, drivers, flight, frame_times, hands_frames, motion, overlay_cost, projection, quarry, soak,
+    aurora, bvh, dial, disk, drivers, flight, frame_times, hands_frames, motion, overlay_cost, projection, quarry, soak,
     steps, tessellation, thin_disk, window_rates,
 };
 
@@ -124,8 +124,7 @@ fn run_aurora(args: &AuroraArgs) -> Result<Vec<PathBuf>, ChartError> {
         size: args.size,
         repeats: usize::from(args.repeats),
     };
-    let (adapter, mut runners) = if args.output.redraw { Default::default() } else { aurora_race::runners() };
-    aurora::chart::run(&args.output, &experiment, &adapter, &mut runners).map_err(|error| ChartError::Failed(error.to_string()))
+    aurora::chart::run(&args.output, &experiment).map_err(|error| ChartError::Failed(error.to_string()))
 }
 
 fn run_bvh(args: &BvhArgs) -> Result<Vec<PathBuf>, ChartError> {

@@ -16,8 +16,6 @@ mod thin_disk;
 
 #[path = "../../tests/gpu.rs"]
 mod gpu;
-#[path = "../../tests/layout.rs"]
-mod layout;
 #[path = "../../tests/projector.rs"]
 mod projector;
 #[allow(dead_code, reason = "the tests of the game use the rest")]

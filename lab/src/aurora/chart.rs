@@ -3,23 +3,11 @@
 use crate::say::say;
 use std::path::PathBuf;
 
-use super::experiment::{self, ExperimentRequest, Row, Runner, View};
-use crate::chart::{Output, Provenance, Sheet, SheetError};
-use crate::plot::{Axis, Bars, Figure, Guide, Line, Lines, Panel, PlotError, Point, Scatter, Series};
+use super::experiment::{self, ExperimentRequest, Row, View};
+use crate::chart::{ChartError, Output, Provenance, Sheet};
+use crate::plot::{Axis, Bars, Figure, Guide, Line, Lines, Panel, Point, Scatter, Series};
 
-/// Why there is no chart.
-#[derive(Debug, thiserror::Error)]
-pub enum ChartError {
-    /// The CSV.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
-    /// The picture.
-    #[error(transparent)]
-    Plot(#[from] PlotError),
-}
-
-const COLUMNS: [&str; 10] =
-    ["view", "method", "electrons", "radius_km", "points", "walk_ms", "splat_ms", "total_ms", "error", "difference"];
+const COLUMNS: [&str; 9] = ["view", "method", "electrons", "radius_km", "walk_ms", "splat_ms", "total_ms", "error", "difference"];
 
 /// A radius in km from the command line.
 pub fn radius(text: &str) -> Result<f32, String> {
@@ -38,22 +26,17 @@ pub fn size(text: &str) -> Result<[usize; 2], String> {
     }
 }
 
-/// Measures (or reads) and draws; returns the files written. `adapter` and `runners` come from whoever has a GPU.
-pub fn run(
-    output: &Output,
-    request: &ExperimentRequest,
-    adapter: &str,
-    runners: &mut [Box<dyn Runner>],
-) -> Result<Vec<PathBuf>, ChartError> {
+/// Measures (or reads) and draws; returns the files written.
+pub fn run(output: &Output, request: &ExperimentRequest) -> Result<Vec<PathBuf>, ChartError> {
     let sheet = output.sheet("aurora", || -> Result<Sheet, ChartError> {
         let table = lensrunner::lensing::default_table();
         let bar = indicatif::ProgressBar::new_spinner();
-        let rows = experiment::run(request, &table, runners, |what| {
+        let rows = experiment::run(request, &table, |what| {
             bar.set_message(what.to_owned());
             bar.tick();
         });
         bar.finish_and_clear();
-        Ok(to_sheet(&rows, adapter))
+        Ok(to_sheet(&rows))
     })?;
     say(ratios(&sheet));
     let figure = draw(&sheet);
@@ -61,17 +44,16 @@ pub fn run(
 }
 
 /// The table of the rows.
-pub fn to_sheet(rows: &[Row], adapter: &str) -> Sheet {
+fn to_sheet(rows: &[Row]) -> Sheet {
     let mut sheet = Sheet::new(&COLUMNS);
-    sheet.notes = Provenance::now(adapter).notes();
+    sheet.notes = Provenance::now("").notes();
     for row in rows {
         let number = |x: f64| format!("{x:.4}");
         sheet.push([
             row.view.to_owned(),
-            row.method.clone(),
+            row.method.to_owned(),
             row.count.to_string(),
             row.radius.to_string(),
-            format!("{:.0}", row.points),
             number(row.walk),
             number(row.splat),
             number(row.total),
@@ -96,45 +78,95 @@ fn distinct(sheet: &Sheet, column: &str) -> Vec<String> {
 }
 
 /// What is drawn: the name in the table, and what it is called.
-const SHOWN: [(&str, &str); 6] = [
-    ("particles-no-table", "particles, the paper's baseline"),
-    ("particles", "particles"),
-    ("particles-pyramid", "particles, pyramid"),
-    ("linear", "linear walk"),
-    ("exact", "exact walk"),
-    ("exact-pyramid", "exact walk, pyramid"),
-];
+const SHOWN: [(&str, &str); 4] =
+    [("particles", "particles"), ("particles-tabled", "particles, fall tabulated"), ("linear", "linear walk"), ("exact", "exact walk")];
 
-/// Pairs of rows that are set against each other, and a column: particles, walk.
-const FACTORS: [(&str, &str, &str, &str); 5] = [
-    ("the walk\nalone", "particles", "exact", "walk_ms"),
-    ("pass,\ntable", "particles", "exact", "total_ms"),
-    ("pass,\npyramid", "particles-pyramid", "exact-pyramid", "total_ms"),
-    ("the same,\nall threads", "particles-pyramid-threads", "exact-pyramid-threads", "total_ms"),
-    ("pass on the\nadapter", "particles-gpu", "exact-gpu", "total_ms"),
+/// What is set against what: a name, the slower method, the faster, and the column.
+type Factor = (&'static str, &'static str, &'static str, &'static str);
+
+const FACTORS: [Factor; 3] = [
+    ("walk", "particles", "exact", "walk_ms"),
+    ("walk, the fall\ntabulated for both", "particles-tabled", "exact", "walk_ms"),
+    ("whole pass", "particles", "exact", "total_ms"),
 ];
 
 /// Differences are drawn no lower: those of rounding.
 const LEAST_DIFFERENCE: f64 = 1e-7;
 
-/// A row of panels for each view: time against electrons at the middle radius, error against time, the difference from the particle method
-/// with the same random numbers, and how many times as fast the exact walk is.
+/// A row of panels for each view: time of the walk against electrons at the middle radius, error against it, the difference from the particle
+/// method with the same random numbers, and how many times as fast the exact walk is.
 pub fn draw(sheet: &Sheet) -> Figure {
     let shown = Shown::new(sheet);
     let measured = distinct(sheet, "view");
     let views: Vec<&str> = View::ALL.iter().map(|(_, name)| *name).filter(|name| measured.iter().any(|view| view == name)).collect();
     let panels = views.iter().flat_map(|view| [shown.times(view), shown.errors(view), shown.differences(view), shown.factors(view)]);
     Figure {
-        verdict: shown.verdict(&views),
+        verdict: verdict(sheet),
         title: "Aurora: walks on the screen against particles in space".into(),
-        subtitle: "Means over the auroras; the same electrons and random numbers in every method. One thread unless said. “bent” is seen \
-                   through the lensing of a hole. Left of and below the others is better."
+        subtitle: "Means over the auroras; the same electrons and random numbers in every method, one thread. “bent” is seen through the \
+                   lensing of a hole. Left of and below the others is better."
             .into(),
         panels: panels.collect(),
         columns: 4,
         size: [1900, 150 + 400 * views.len() as u32],
         footer: Provenance::footer(&sheet.notes),
     }
+}
+
+/// The rows of a method through bent light, or of it in all flat views.
+fn rows<'a>(sheet: &'a Sheet, method: &'a str, bent: bool) -> impl Iterator<Item = &'a Vec<String>> {
+    sheet.rows.iter().filter(move |row| sheet.text(row, "method") == method && (sheet.text(row, "view") == "bent") == bent)
+}
+
+/// A column of one method over that of another, for all electrons and radii.
+fn quotients(sheet: &Sheet, above: &str, below: &str, column: &str, bent: bool) -> Vec<f64> {
+    // A method has the same cases in the same order as the others.
+    let pairs = rows(sheet, above, bent).zip(rows(sheet, below, bent));
+    pairs.map(|(a, b)| sheet.number(a, column) / sheet.number(b, column)).collect()
+}
+
+fn least(values: &[f64]) -> f64 {
+    values.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+fn greatest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// How many times less time the exact walk takes than particles.
+fn verdict(sheet: &Sheet) -> String {
+    let factors = |bent| quotients(sheet, "particles", "exact", "walk_ms", bent);
+    let (flat, bent) = (factors(false), factors(true));
+    let worse = [false, true].map(|bent| greatest(&quotients(sheet, "exact", "particles", "error", bent)));
+    let worse = 100.0 * (greatest(&worse) - 1.0);
+    let error = if worse < 0.05 { "at the same error".to_owned() } else { format!("at an error up to {worse:.1} % greater") };
+    format!(
+        "The exact walk takes {:.0} to {:.0} times less time than particles in flat views, {:.0} to {:.0} times less through bent light, {error}",
+        least(&flat),
+        greatest(&flat),
+        least(&bent),
+        greatest(&bent)
+    )
+}
+
+/// What the experiment is about as a Markdown table, least and greatest over all electrons and radii: how many times less time the exact
+/// walk takes, and by how much the walks' pictures differ from that of the particle method.
+fn ratios(sheet: &Sheet) -> String {
+    let mut text = String::from("| | flat views | bent light |\n|---|---|---|\n");
+    for (name, slow, fast, column) in FACTORS {
+        let range = [false, true].map(|bent| {
+            let factors = quotients(sheet, slow, fast, column, bent);
+            format!("{:.1} … {:.1}", least(&factors), greatest(&factors))
+        });
+        text += &format!("| {} | {} |\n", name.replace('\n', " "), range.join(" | "));
+    }
+    for method in ["exact", "linear"] {
+        let most = [false, true].map(|bent| {
+            format!("≤ {:.1e}", greatest(&rows(sheet, method, bent).map(|row| sheet.number(row, "difference")).collect::<Vec<_>>()))
+        });
+        text += &format!("| difference from particles, {method} walk | {} |\n", most.join(" | "));
+    }
+    text
 }
 
 /// What the panels show of the table.
@@ -164,22 +196,6 @@ impl<'a> Shown<'a> {
         found.map_or(f64::NAN, |row| self.sheet.number(row, column))
     }
 
-    /// How many times less the exact walk alone takes, over the views.
-    fn verdict(&self, views: &[&str]) -> String {
-        let range = |(_, slow, fast, column): (&str, &str, &str, &str)| {
-            let factors = views.iter().map(|view| self.of(view, slow, column) / self.of(view, fast, column)).filter(|f| f.is_finite());
-            factors.fold([f64::INFINITY, 0.0], |[least, most], f| [least.min(f), most.max(f)])
-        };
-        let ([low, high], [least, most]) = (range(FACTORS[0]), range(FACTORS[2]));
-        let worse = views.iter().map(|view| self.of(view, "exact", "error") / self.of(view, "particles", "error") - 1.0);
-        let worse = 100.0 * worse.filter(|share| share.is_finite()).fold(0.0, f64::max);
-        let error = if worse < 0.05 { "at the same error".to_owned() } else { format!("at an error up to {worse:.1} % greater") };
-        format!(
-            "The exact walk takes {low:.0} to {high:.0} times less time than particles, a whole pass with a pyramid {least:.1} to {most:.1} times \
-             less, {error}"
-        )
-    }
-
     /// Time against electrons, a line for each method.
     fn times(&self, view: &str) -> Panel {
         let lines = SHOWN.iter().map(|(method, name)| Line {
@@ -187,15 +203,15 @@ impl<'a> Shown<'a> {
             points: self
                 .rows(view)
                 .filter(|row| self.sheet.text(row, "method") == *method)
-                .map(|row| [self.sheet.number(row, "electrons"), self.sheet.number(row, "total_ms")])
+                .map(|row| [self.sheet.number(row, "electrons"), self.sheet.number(row, "walk_ms")])
                 .collect(),
             dots: true,
             ..Line::default()
         });
         Panel::Lines(Lines {
-            title: format!("{view}: splats of {} km", self.radius),
+            title: view.to_owned(),
             x: Axis::log("electrons"),
-            y: Axis::log("time of a frame, ms"),
+            y: Axis::log("time of the walk, ms"),
             lines: lines.collect(),
             ..Lines::default()
         })
@@ -204,7 +220,7 @@ impl<'a> Shown<'a> {
     /// A column against time, a point for each method with the most electrons.
     fn points(&self, view: &str, column: &str) -> Vec<Point> {
         let point = |(family, (method, name)): (usize, &(&str, &str))| Point {
-            x: self.of(view, method, "total_ms"),
+            x: self.of(view, method, "walk_ms"),
             y: self.of(view, method, column),
             label: (*name).into(),
             family,
@@ -216,8 +232,8 @@ impl<'a> Shown<'a> {
 
     fn errors(&self, view: &str) -> Panel {
         Panel::Scatter(Scatter {
-            title: format!("{view}: {} electrons", self.most),
-            x: Axis::log("time of a frame, ms"),
+            title: format!("{view}: {} electrons, splats of {} km", self.most, self.radius),
+            x: Axis::log("time of the walk, ms"),
             // Through bent light there is no line integral to judge by.
             y: Axis::linear(if view == "bent" { "error against many more electrons" } else { "error against the line integral" }),
             points: self.points(view, "error"),
@@ -233,7 +249,7 @@ impl<'a> Shown<'a> {
         points.iter_mut().for_each(|point| point.y = point.y.max(LEAST_DIFFERENCE));
         Panel::Scatter(Scatter {
             title: format!("{view}: the same random numbers"),
-            x: Axis::log("time of a frame, ms"),
+            x: Axis::log("time of the walk, ms"),
             y: Axis::log("difference from particles"),
             points,
             ..Scatter::default()
@@ -241,7 +257,7 @@ impl<'a> Shown<'a> {
     }
 
     fn factors(&self, view: &str) -> Panel {
-        let factor = |(_, slow, fast, column): (&str, &str, &str, &str)| self.of(view, slow, column) / self.of(view, fast, column);
+        let factor = |(_, slow, fast, column): Factor| self.of(view, slow, column) / self.of(view, fast, column);
         Panel::Bars(Bars {
             title: format!("{view}: particles over exact walk"),
             y: Axis::linear("times as fast"),
@@ -251,34 +267,4 @@ impl<'a> Shown<'a> {
             guides: vec![Guide { at: 1.0, label: String::new() }],
         })
     }
-}
-
-/// The ratios that the experiment is about, a line for each view at the greatest number of electrons and the middle radius, as a Markdown
-/// table: milliseconds of the particle method and of the exact walk, and how many times less the walk takes.
-pub fn ratios(sheet: &Sheet) -> String {
-    let shown = Shown::new(sheet);
-    let mut text = String::from(
-        "| view | walk | walk, the fall tabulated for both | whole pass, table | whole pass, pyramid | the same on all threads | the paper's baseline → exact, pyramid | walk on the adapter | whole pass on the adapter | error: exact, with pyramid, linear | difference from the particle method: exact, with pyramid, linear |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-    );
-    for view in distinct(sheet, "view") {
-        let of = |method: &str, column: &str| shown.of(&view, method, column);
-        let pair = |slow: &str, fast: &str, column: &str| {
-            let (slow, fast) = (of(slow, column), of(fast, column));
-            if slow.is_nan() { "–".to_owned() } else { format!("{slow:.1} → {fast:.2} ({:.1} ×)", slow / fast) }
-        };
-        let columns = [
-            pair("particles", "exact", "walk_ms"),
-            pair("particles-tabled", "exact", "walk_ms"),
-            pair("particles", "exact", "total_ms"),
-            pair("particles-pyramid", "exact-pyramid", "total_ms"),
-            pair("particles-pyramid-threads", "exact-pyramid-threads", "total_ms"),
-            pair("particles-no-table", "exact-pyramid", "total_ms"),
-            pair("particles-gpu", "exact-gpu", "walk_ms"),
-            pair("particles-gpu", "exact-gpu", "total_ms"),
-            ["exact", "exact-pyramid", "linear"].map(|method| format!("{:.3}", of(method, "error"))).join(", "),
-            ["exact", "exact-pyramid", "linear"].map(|method| format!("{:.4}", of(method, "difference"))).join(", "),
-        ];
-        text += &format!("| {view} | {} |\n", columns.join(" | "));
-    }
-    text
 }

@@ -2,15 +2,16 @@
 //! below and from orbit, and from orbit through bent light. Times are medians of runs taken in turn; errors are against the exact line
 //! integral.
 
+use std::time::Instant;
+
 use glam::DVec3;
 
-use super::engine::draw::{Job, Splats, Tables, Timed, VARIANTS, draw};
-use super::engine::points::Points;
-use super::engine::splat::{Picture, Splat};
-use super::engine::walk::{Method, Walker};
 use super::eye::{Eye, Planet};
+use super::lattice::Lattice;
 use super::sheet::{Falls, Sheet, Streak, field_direction};
+use super::splat::{Gaussian, Picture};
 use super::truth::Emission;
+use super::walk::{Method, Walker};
 use lensrunner::lensing::{Slice, Table};
 
 /// From where the auroras are seen.
@@ -50,12 +51,56 @@ impl View {
     }
 }
 
-/// A way to draw that lives above this floor: the passes on a GPU.
-pub trait Runner {
-    /// Its name in the table.
-    fn name(&self) -> &str;
-    /// Draws the electrons; None if it cannot draw this view.
-    fn draw(&mut self, job: &Job) -> Option<Timed>;
+/// What is to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Job<'a> {
+    /// The camera.
+    pub eye: &'a Eye,
+    /// The fall.
+    pub falls: &'a Falls,
+    /// The electrons.
+    pub streaks: &'a [Streak],
+    /// Which random numbers.
+    pub seed: u32,
+    /// Standard deviation of a point's light, km.
+    pub radius: f32,
+}
+
+/// A picture, and how long its two stages took, in milliseconds.
+#[derive(Clone, Debug)]
+pub struct Timed {
+    /// The picture.
+    pub picture: Picture,
+    /// From electrons to points.
+    pub walk: f64,
+    /// From points to the picture.
+    pub splat: f64,
+}
+
+/// Error allowed to chords through bent light, pixels.
+pub const TOLERANCE: f32 = 0.25;
+
+/// Electrons walked before their points are drawn: those nearly fit into a processor's first cache.
+const TOGETHER: usize = 64;
+
+/// Draws `job` on one thread of the processor: some electrons are walked, their points drawn, then the next.
+pub fn draw(method: Method, job: &Job, gaussian: &Gaussian) -> Timed {
+    let start = Instant::now();
+    // In flat space each streak is one chord, of its own.
+    let lattice = (method == Method::Exact && job.eye.bent.is_some()).then(|| Lattice::around(job.eye, job.streaks, TOLERANCE));
+    let walker = Walker::new(job.eye, job.falls, lattice.as_ref(), job.seed);
+    let mut walk = start.elapsed().as_secs_f64();
+    let mut picture = Picture::new(job.eye.size);
+    let mut points = Vec::new();
+    for streaks in job.streaks.chunks(TOGETHER) {
+        let before = Instant::now();
+        points.clear();
+        walker.walk(method, streaks, &mut points);
+        walk += before.elapsed().as_secs_f64();
+        picture.add(&points, job.falls, job.radius, gaussian);
+    }
+    let total = start.elapsed().as_secs_f64();
+    Timed { picture, walk: walk * 1e3, splat: (total - walk) * 1e3 }
 }
 
 /// What is swept.
@@ -79,13 +124,11 @@ pub struct Row {
     /// From where.
     pub view: &'static str,
     /// How.
-    pub method: String,
+    pub method: &'static str,
     /// Electrons.
     pub count: u32,
     /// Standard deviation of a point's light, km.
     pub radius: f32,
-    /// Luminous points of the particle method in the frame and around it.
-    pub points: f64,
     /// Milliseconds from electrons to points, from points to the picture, and both.
     pub walk: f64,
     /// See `walk`.
@@ -95,15 +138,14 @@ pub struct Row {
     /// Root mean square error of the picture over that of the truth. With few electrons it is their grain for the most part, whatever the
     /// walk.
     pub error: f64,
-    /// The same against the particle method with the same electrons, random numbers and splats: what the walk itself gets wrong. 0 for the
-    /// particle method.
+    /// The same against the particle method with the same electrons and random numbers: what the walk itself gets wrong.
     pub difference: f64,
 }
 
 /// Runs the experiment; `report` is told what is being drawn.
-pub fn run(request: &ExperimentRequest, table: &Table, runners: &mut [Box<dyn Runner>], mut report: impl FnMut(&str)) -> Vec<Row> {
+pub fn run(request: &ExperimentRequest, table: &Table, mut report: impl FnMut(&str)) -> Vec<Row> {
     let falls = Falls::new();
-    let tables = Tables::default();
+    let gaussian = Gaussian::default();
     let sheets = Sheet::ten();
     let sheets = &sheets[..request.auroras.clamp(1, 10)];
     let judge = request.counts.iter().max().map_or(JUDGE[0], |&count| (10u32.saturating_mul(count)).clamp(JUDGE[0], JUDGE[1]));
@@ -111,27 +153,15 @@ pub fn run(request: &ExperimentRequest, table: &Table, runners: &mut [Box<dyn Ru
     for (view, name) in View::ALL {
         let eye = view.eye(request.size, table);
         for &radius in &request.radii {
-            let splat = Splat { radius, table: true };
-            let site = Site { view, name, eye: &eye, falls: &falls, splat, tables: &tables };
+            let site = Site { name, eye: &eye, falls: &falls, radius, gaussian: &gaussian };
             let auroras: Vec<Aurora> = sheets.iter().map(|sheet| Aurora { sheet, truth: site.truth(sheet, judge) }).collect();
             for &count in &request.counts {
                 report(&format!("{name}, {count} electrons, splats of {radius} km"));
-                rows.extend(site.rows(&auroras, count, request.repeats, runners));
+                rows.extend(site.rows(&auroras, count, request.repeats.max(1)));
             }
         }
     }
     rows
-}
-
-/// Runs of a way on the graphics adapter, at least: its clock has once been read as 0.02 ms for a pass of several, and with fewer than
-/// three runs one such time can be the median.
-const LEAST_RUNS: usize = 3;
-
-/// The way whose picture another's is compared with: the particle method on one thread, spread in the same way. A graphics adapter's splats
-/// are exponentials.
-fn reference(way: usize) -> Option<usize> {
-    let splats = VARIANTS.get(way).map_or(Splats::Exponential, |variant| variant.splats);
-    VARIANTS.iter().position(|variant| variant.method == Method::Particles && !variant.threads && variant.splats == splats)
 }
 
 /// Electrons of the judge through bent light, at least and at most.
@@ -139,13 +169,12 @@ const JUDGE: [u32; 2] = [10_000, 150_000];
 
 /// What all numbers of electrons are drawn with.
 struct Site<'a> {
-    view: View,
     /// The name of the view.
     name: &'static str,
     eye: &'a Eye,
     falls: &'a Falls,
-    splat: Splat,
-    tables: &'a Tables,
+    radius: f32,
+    gaussian: &'a Gaussian,
 }
 
 /// An aurora, and the picture of it as it should be.
@@ -156,114 +185,61 @@ struct Aurora<'a> {
 
 impl<'a> Site<'a> {
     fn job(&self, streaks: &'a [Streak], seed: u32) -> Job<'a> {
-        Job { eye: self.eye, falls: self.falls, streaks, seed, splat: self.splat }
+        Job { eye: self.eye, falls: self.falls, streaks, seed, radius: self.radius }
     }
 
     /// The picture as it should be. Through bent light there is no line integral to judge by but the particle method itself: `judge`
     /// electrons of another seed.
     fn truth(&self, sheet: &Sheet, judge: u32) -> Picture {
-        if self.view != View::Bent {
-            return Emission::new(sheet, self.falls, self.splat).picture(self.eye, 0.5 * f64::from(self.splat.radius).min(1.5));
+        if self.eye.bent.is_none() {
+            let radius = f64::from(self.radius);
+            return Emission::new(sheet, self.falls, radius).picture(self.eye, 0.5 * radius.min(1.5));
         }
         let seed = sheet.seed + 7000;
         let streaks = Sheet { seed, ..sheet.clone() }.streaks(judge);
-        draw(VARIANTS[4], &self.job(&streaks, seed), self.tables).picture
+        draw(Method::Particles, &self.job(&streaks, seed), self.gaussian).picture
     }
 
-    /// A row for each way that can draw the view, with `count` electrons: means over the auroras.
-    fn rows(&self, auroras: &[Aurora], count: u32, repeats: usize, runners: &mut [Box<dyn Runner>]) -> Vec<Row> {
-        let ways = VARIANTS.len() + runners.len();
-        let mut sums = vec![[0.0f64; 5]; ways];
-        let mut drawn = vec![true; ways];
-        let mut points = 0.0;
+    /// A row for each method, with `count` electrons: means over the auroras.
+    fn rows(&self, auroras: &[Aurora], count: u32, repeats: usize) -> Vec<Row> {
+        let mut sums = [[0.0; 5]; Method::ALL.len()];
         for Aurora { sheet, truth } in auroras {
             let streaks = sheet.streaks(count);
             let job = self.job(&streaks, sheet.seed);
-            let mut found = Points::default();
-            Walker::new(self.eye, self.falls, None, sheet.seed).walk(Method::Particles, &streaks, &mut found);
-            points += found.len() as f64 / auroras.len() as f64;
-            let heat = Heat::run(&job, truth, self.tables, repeats, runners);
-            for way in 0..ways {
-                drawn[way] &= heat.drawn[way];
-                for (sum, value) in sums[way].iter_mut().zip(heat.result(way)) {
+            let mut runs: [Vec<Timed>; Method::ALL.len()] = Default::default();
+            // In turn, so that what else the machine does falls on all alike.
+            for _ in 0..repeats {
+                for ((method, _), runs) in Method::ALL.iter().zip(&mut runs) {
+                    runs.push(draw(*method, &job, self.gaussian));
+                }
+            }
+            let reference = &runs[0][0].picture;
+            for (sums, runs) in sums.iter_mut().zip(&runs) {
+                let picture = &runs[0].picture;
+                let times = [median(runs, |run| run.walk), median(runs, |run| run.splat), median(runs, |run| run.walk + run.splat)];
+                for (sum, value) in sums.iter_mut().zip(times.into_iter().chain([picture.error(truth), picture.error(reference)])) {
                     *sum += value / auroras.len() as f64;
                 }
             }
         }
-        let row = |way: usize| {
-            let method = VARIANTS.get(way).map_or_else(|| runners[way - VARIANTS.len()].name(), |variant| variant.name).to_owned();
-            let [walk, splat, total, error, difference] = sums[way];
-            Row { view: self.name, method, count, radius: self.splat.radius, points, walk, splat, total, error, difference }
+        let row = |((_, method), [walk, splat, total, error, difference]): (&(Method, &'static str), [f64; 5])| Row {
+            view: self.name,
+            method,
+            count,
+            radius: self.radius,
+            walk,
+            splat,
+            total,
+            error,
+            difference,
         };
-        (0..ways).filter(|&way| drawn[way]).map(row).collect()
+        Method::ALL.iter().zip(sums).map(row).collect()
     }
 }
 
-/// What all ways came to with one aurora: those of [`VARIANTS`], then the runners.
-struct Heat {
-    /// Of each way and run: milliseconds from electrons to points, from points to the picture, and both.
-    times: Vec<Vec<[f64; 3]>>,
-    /// Of each way: error against the truth and difference from the particle method.
-    errors: Vec<[f64; 2]>,
-    /// Which ways can draw the view.
-    drawn: Vec<bool>,
-    /// Pictures of the particle method, with which others are compared.
-    pictures: Vec<Option<Picture>>,
-}
-
-impl Heat {
-    /// Draws the job in every way, in turn, so that what else the machine does falls on all alike.
-    fn run(job: &Job, truth: &Picture, tables: &Tables, repeats: usize, runners: &mut [Box<dyn Runner>]) -> Heat {
-        let ways = VARIANTS.len() + runners.len();
-        let mut heat = Heat {
-            times: vec![Vec::new(); ways],
-            errors: vec![[f64::NAN; 2]; ways],
-            drawn: vec![true; ways],
-            pictures: vec![None; VARIANTS.len()],
-        };
-        for run in 0..repeats.max(LEAST_RUNS) {
-            for way in 0..ways {
-                if run >= repeats.max(1) && way < VARIANTS.len() {
-                    continue;
-                }
-                let timed = match VARIANTS.get(way) {
-                    Some(variant) => Some(draw(*variant, job, tables)),
-                    None => runners[way - VARIANTS.len()].draw(job),
-                };
-                match timed {
-                    Some(timed) => heat.take(way, timed, truth, tables),
-                    None => heat.drawn[way] = false,
-                }
-            }
-        }
-        heat
-    }
-
-    /// Takes up one run of a way.
-    fn take(&mut self, way: usize, timed: Timed, truth: &Picture, tables: &Tables) {
-        self.times[way].push([timed.walk, timed.splat, timed.walk + timed.splat]);
-        let own = reference(way);
-        let other = own.and_then(|own| self.pictures[own].as_ref()).unwrap_or(&timed.picture);
-        self.errors[way] = [timed.picture.error(truth), timed.picture.error(other)];
-        // Those of an adapter come from elsewhere.
-        if own == Some(way) {
-            // For all ways alike, the one before is taken back.
-            if let Some(before) = self.pictures[way].replace(timed.picture) {
-                tables.take_back(before);
-            }
-        } else if way < VARIANTS.len() {
-            tables.take_back(timed.picture);
-        }
-    }
-
-    /// Medians of a way's times, then its errors.
-    fn result(&self, way: usize) -> [f64; 5] {
-        let median = |k: usize| {
-            let mut column: Vec<f64> = self.times[way].iter().map(|time| time[k]).collect();
-            column.sort_by(f64::total_cmp);
-            column.get(column.len() / 2).copied().unwrap_or(f64::NAN)
-        };
-        let [error, difference] = self.errors[way];
-        [median(0), median(1), median(2), error, difference]
-    }
+/// The median of a time of some runs.
+fn median(runs: &[Timed], time: impl Fn(&Timed) -> f64) -> f64 {
+    let mut times: Vec<f64> = runs.iter().map(time).collect();
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
 }

@@ -4,13 +4,14 @@
 //! The patch of sky they draw is flat: x east, y north, z up, km, the ground at z = 0; the field is straight and inclined.
 //!
 //! - [`sheet`]: where electrons come down; [`eye`]: how a point is projected (flat space, or bent by the lensing table).
-//! - [`engine`]: the experiment's drawing on the processor; [`race`]: the same on a graphics adapter.
+//! - [`walk`]: from electrons to luminous points, by the chords of a [`lattice`] where light is bent; [`splat`]: from points to a picture.
 //! - [`truth`]: what the picture should be; [`experiment`]: what all that took; [`chart`]: the picture of it.
 
 pub mod chart;
-pub mod engine;
 pub mod experiment;
 pub mod eye;
-pub mod race;
+pub mod lattice;
 pub mod sheet;
+pub mod splat;
 pub mod truth;
+pub mod walk;

@@ -9,7 +9,7 @@ use lensrunner::scene::aurora::fall::{self, Spectrum};
 use lensrunner::scene::aurora::lines;
 use lensrunner::scene::aurora::random::uniform;
 
-/// Levels of height at which an electron may collide; a multiple of 8, which are taken together.
+/// Levels of height at which an electron may collide.
 pub const LEVELS: usize = 160;
 /// The highest of them, km.
 pub const TOP: f64 = 420.0;
@@ -37,7 +37,7 @@ pub struct Falls {
     pub heights: [f32; LEVELS],
     /// For each row the share of the energy spent above each level's layer, and last the share spent above the ground.
     pub spent: Vec<[f32; LEVELS + 1]>,
-    /// For each row the level from which on nothing is spent any more, rounded up to a multiple of 8.
+    /// For each row the level from which on nothing is spent any more.
     pub stops: Vec<usize>,
     /// How far collisions have led an electron astray at each level, km: as the square root of the path.
     pub sway: [f32; LEVELS],
@@ -60,7 +60,7 @@ impl Falls {
         let overheads: [f64; LEVELS] = std::array::from_fn(|k| overhead(edge(k)));
         let above = |row: usize, k: usize| k.checked_sub(1).map_or(0.0, |k| (1.0 - fall::share_left(overheads[k], row_reach(row))) as f32);
         let spent: Vec<[f32; LEVELS + 1]> = (0..FALLS).map(|row| std::array::from_fn(|k| above(row, k))).collect();
-        let stop = |row: &[f32; LEVELS + 1]| row.iter().position(|spent| *spent == row[LEVELS]).unwrap_or(0).next_multiple_of(8);
+        let stop = |row: &[f32; LEVELS + 1]| row.iter().position(|spent| *spent == row[LEVELS]).unwrap_or(0);
         let stops = spent.iter().map(stop).collect();
         let sway = std::array::from_fn(|k| (SWAY * ((TOP - level_height(k)) / (TOP - BOTTOM)).sqrt()) as f32);
         Falls {
@@ -174,7 +174,7 @@ impl Sheet {
                     top: at(TOP),
                     end: at(end_height),
                     end_height: end_height as f32,
-                    collisions: (energy / lensrunner::scene::aurora::fall::PAIR_ENERGY) as f32,
+                    collisions: (energy / fall::PAIR_ENERGY) as f32,
                     row: row as u32,
                     id,
                 }

@@ -4,9 +4,9 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::engine::splat::{Picture, Splat};
 use super::eye::Eye;
 use super::sheet::{BOTTOM, FALLS, Falls, LEVELS, Sheet, TOP, field_direction, level_height, reach_row};
+use super::splat::Picture;
 use lensrunner::scene::aurora::dipole::REFERENCE_HEIGHT;
 use lensrunner::scene::aurora::{fall, lines};
 
@@ -31,9 +31,8 @@ pub struct Emission {
 }
 
 impl Emission {
-    /// The emission of `sheet` blurred by blobs of standard deviation `splat.radius` km.
-    pub fn new(sheet: &Sheet, falls: &Falls, splat: Splat) -> Emission {
-        let radius = f64::from(splat.radius);
+    /// The emission of `sheet` blurred by blobs of standard deviation `radius` km.
+    pub fn new(sheet: &Sheet, falls: &Falls, radius: f64) -> Emission {
         let seeds: Vec<DVec2> = (0..SEEDS)
             .flat_map(|k| {
                 // The plastic number's lattice fills the square evenly (Roberts 2018).
@@ -126,7 +125,7 @@ fn profile(sheet: &Sheet, falls: &Falls, radius: f64, bottom: f64) -> Vec<[f64; 
         let energy = sheet.spectrum.energy(1.0 - u, 1.0 - v, w);
         let reach = fall::slope(mu) * fall::range(energy);
         let row = reach_row(reach);
-        weights[row] += energy / lensrunner::scene::aurora::fall::PAIR_ENERGY / f64::from(draws);
+        weights[row] += energy / fall::PAIR_ENERGY / f64::from(draws);
     }
     let count = ((TOP + 10.0 - bottom) / LAYER) as usize;
     let mut result = vec![[0.0; 4]; count];
@@ -144,44 +143,36 @@ fn profile(sheet: &Sheet, falls: &Falls, radius: f64, bottom: f64) -> Vec<[f64; 
             }
         }
     }
-    let sigma = radius / LAYER;
+    let kernel = kernel(radius / LAYER);
+    (0..count).map(|z| std::array::from_fn(|line| blurred(&kernel, count, z, |k| result[k][line]))).collect()
+}
+
+/// A Gaussian in steps of one, as far as four standard deviations to either side, with a sum of 1.
+fn kernel(sigma: f64) -> Vec<f64> {
     let reach = (4.0 * sigma).ceil() as i64;
     let kernel: Vec<f64> = (-reach..=reach).map(|k| (-0.5 * (k as f64 / sigma.max(1e-6)).powi(2)).exp()).collect();
     let norm: f64 = kernel.iter().sum();
-    (0..count as i64)
-        .map(|z| {
-            std::array::from_fn(|line| {
-                (-reach..=reach)
-                    .filter(|k| (0..count as i64).contains(&(z + k)))
-                    .map(|k| result[(z + k) as usize][line] * kernel[(k + reach) as usize] / norm)
-                    .sum()
-            })
-        })
-        .collect()
+    kernel.into_iter().map(|part| part / norm).collect()
+}
+
+/// The `count` values of a line, blurred, at the place `at`.
+fn blurred(kernel: &[f64], count: usize, at: usize, value: impl Fn(usize) -> f64) -> f64 {
+    let first = at as i64 - kernel.len() as i64 / 2;
+    let inside = |(k, part): (i64, &f64)| (0..count as i64).contains(&k).then(|| value(k as usize) * part);
+    (first..).zip(kernel).filter_map(inside).sum()
 }
 
 /// A Gaussian blur of the map, along rows and then along columns.
 fn blur(map: &mut [f32], columns: usize, rows: usize, sigma: f64) {
-    let reach = (4.0 * sigma).ceil() as i64;
-    let kernel: Vec<f64> = (-reach..=reach).map(|k| (-0.5 * (k as f64 / sigma.max(1e-6)).powi(2)).exp()).collect();
-    let norm: f64 = kernel.iter().sum();
-    let along = |source: &[f32], index: &dyn Fn(i64) -> usize, length: usize, at: i64| -> f32 {
-        let mut sum = 0.0;
-        for k in -reach..=reach {
-            if (0..length as i64).contains(&(at + k)) {
-                sum += f64::from(source[index(at + k)]) * kernel[(k + reach) as usize];
-            }
-        }
-        (sum / norm) as f32
-    };
+    let kernel = kernel(sigma);
     let source = map.to_vec();
     map.par_iter_mut().enumerate().for_each(|(k, value)| {
         let (row, column) = (k / columns, k % columns);
-        *value = along(&source, &|x| row * columns + x as usize, columns, column as i64);
+        *value = blurred(&kernel, columns, column, |x| f64::from(source[row * columns + x])) as f32;
     });
     let source = map.to_vec();
     map.par_iter_mut().enumerate().for_each(|(k, value)| {
         let (row, column) = (k / columns, k % columns);
-        *value = along(&source, &|y| y as usize * columns + column, rows, row as i64);
+        *value = blurred(&kernel, rows, row, |y| f64::from(source[y * columns + column])) as f32;
     });
 }

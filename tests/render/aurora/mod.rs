@@ -5,5 +5,6 @@ mod ground;
 mod history;
 mod pictures;
 mod ration;
+mod shaders;
 mod shift;
 mod sight;

@@ -1,4 +1,4 @@
-//! The aurora on the GPU: its functions against their Rust twins, its history, its numbers, and the experiment.
+//! The aurora on the GPU: its functions against their Rust twins, its history, and its numbers.
 
 use glam::{DVec2, DVec3};
 use lensrunner::render::aurora::rooms::{CORNERS, DRAWS_BYTES, FOURS, Rooms};
@@ -15,15 +15,8 @@ use lensrunner::scene::aurora::motion::RAYS_LENGTH;
 use lensrunner::scene::aurora::quantiles::Quantiles;
 use lensrunner::scene::aurora::random;
 use lensrunner::spacetime::light::{self, Branch, Order};
-use lensrunner_lab::aurora::engine::draw::{Job, TOLERANCE, Tables, VARIANTS, draw};
-use lensrunner_lab::aurora::engine::splat::Splat;
-use lensrunner_lab::aurora::experiment::View;
-use lensrunner_lab::aurora::eye::Eye;
-use lensrunner_lab::aurora::sheet::{Falls, Sheet};
-use lensrunner_lab::aurora_race;
 
 use crate::gpu::GPU;
-use crate::support::table;
 use crate::twin::{run, run_with};
 
 #[test]
@@ -236,34 +229,6 @@ fn a_planet_far_away_has_a_history() {
             let off = history.at(time).position.distance(planet.state(time).unwrap().position);
             println!("{back} r_s/c back: off by {off}");
             assert!(off < 1e-6, "at T = {time} of {back} it is off by {off}");
-        }
-    }
-}
-
-#[test]
-fn the_adapter_draws_the_experiment_as_the_processor_does() {
-    let (_, mut runners) = aurora_race::runners();
-    assert!(!runners.is_empty(), "the adapter cannot add up 32-bit floats: the experiment's shaders are not tested on it");
-    let (falls, tables) = (Falls::new(), Tables::default());
-    let sheet = Sheet::numbered(2);
-    let streaks = sheet.streaks(150);
-    // From amid the curtains too: what is behind the camera leaves no light.
-    let amid = Eye::flat(DVec3::new(0.0, 0.0, 150.0), DVec3::new(0.0, 100.0, 150.0), DVec3::Z, 1.0, [128, 72]);
-    let eyes = [View::Below, View::Bent].map(|view| view.eye([128, 72], table()));
-    for (eye, view) in eyes.into_iter().zip(["below", "bent"]).chain([(amid, "amid")]) {
-        let job = Job { eye: &eye, falls: &falls, streaks: &streaks, seed: sheet.seed, splat: Splat { radius: 0.5, table: true } };
-        for runner in &mut runners {
-            let like = if runner.name() == "exact-gpu" { "exact" } else { "particles" };
-            let want = draw(*VARIANTS.iter().find(|variant| variant.name == like).unwrap(), &job, &tables).picture;
-            let got = runner.draw(&job).expect("the adapter draws");
-            // Rounding of f32 moves a collision here and there to the next level, and steps of the processor's tabulated Gaussian differ
-            // from the adapter's own.
-            let off = got.picture.error(&want);
-            // Measured 0.018 from below.
-            assert!(off < 0.02, "{view}, {}: off by {off} (chords allow {TOLERANCE} px)", runner.name());
-            let light = |pixels: &[[f32; 4]]| pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>();
-            let ratio = light(&got.picture.pixels) / light(&want.pixels);
-            assert!((ratio - 1.0).abs() < 0.02, "{view}, {}: {ratio} of the light", runner.name());
         }
     }
 }

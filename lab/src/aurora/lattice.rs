@@ -5,8 +5,8 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::aurora::eye::Eye;
-use crate::aurora::sheet::{Streak, TOP, field_direction};
+use super::eye::Eye;
+use super::sheet::{Streak, TOP, field_direction};
 
 /// Most halvings along each axis.
 const MOST_HALVINGS: [u32; 3] = [7, 6, 3];
@@ -21,8 +21,6 @@ pub struct Lattice {
     per_km: Vec2,
     cells: [usize; 3],
     nodes: Vec<Vec3>,
-    /// Points that went through the projection to make it.
-    pub projected: usize,
 }
 
 impl Lattice {
@@ -33,7 +31,6 @@ impl Lattice {
         let high = tops().fold(Vec2::NEG_INFINITY, Vec2::max);
         let (low, high) = if low.is_finite() { (low - 0.1, high + 0.1) } else { (Vec2::ZERO, Vec2::ONE) };
         let mut halvings = [0u32; 3];
-        let mut projected = 0;
         if eye.bent.is_some() {
             let at = |s: Vec3| eye.apparent(point(low, high, s));
             // Along each axis the bend between two neighbours, in the worst of a few rows, falls as the square of the spacing.
@@ -50,7 +47,6 @@ impl Lattice {
                             p
                         };
                         worst = worst.max(bend(eye, at(place(0.0)), at(place(0.5)), at(place(1.0))));
-                        projected += 3;
                     }
                 }
                 // A quarter of the axis bends by `worst`; three axes share the tolerance.
@@ -72,18 +68,7 @@ impl Lattice {
                 }
             }
         }
-        projected += nodes.len();
-        Lattice { low, per_km: Vec2::new(nx as f32, ny as f32) / (high - low), cells, nodes, projected }
-    }
-
-    /// Apparent places, along x first and downwards last.
-    pub fn nodes(&self) -> &[Vec3] {
-        &self.nodes
-    }
-
-    /// The low corner of (x, y) at the top in km, cells per km, and cells along all three axes.
-    pub fn grid(&self) -> (Vec2, Vec2, [usize; 3]) {
-        (self.low, self.per_km, self.cells)
+        Lattice { low, per_km: Vec2::new(nx as f32, ny as f32) / (high - low), cells, nodes }
     }
 
     /// Chords along a streak.

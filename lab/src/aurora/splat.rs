@@ -1,7 +1,7 @@
-//! From luminous points to a picture: Gaussians added up, with a table or without.
+//! From luminous points to a picture: Gaussians added up.
 
-use super::points::{Point, Points};
-use crate::aurora::sheet::Falls;
+use super::sheet::Falls;
+use super::walk::Point;
 
 /// Photons of each of the four lines per pixel.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,32 +32,22 @@ impl Default for Gaussian {
     }
 }
 
-/// How a splat is weighted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Splat {
-    /// Standard deviation of the blob of light, km.
-    pub radius: f32,
-    /// Whether the Gaussian is tabulated and taken apart into rows and columns.
-    pub table: bool,
-}
-
 impl Picture {
     /// A black one.
     pub fn new(size: [usize; 2]) -> Self {
         Picture { size, pixels: vec![[0.0; 4]; size[0] * size[1]] }
     }
 
-    /// Adds points.
-    pub fn add(&mut self, points: &Points, falls: &Falls, splat: Splat, gaussian: &Gaussian) {
-        for point in points.iter() {
-            let sigma = (splat.radius * point.scale).clamp(LEAST_SIGMA, MOST_SIGMA);
+    /// Adds points, each a blob of light of standard deviation `radius` km.
+    pub fn add(&mut self, points: &[Point], falls: &Falls, radius: f32, gaussian: &Gaussian) {
+        for point in points {
+            let sigma = (radius * point.scale).clamp(LEAST_SIGMA, MOST_SIGMA);
             // Light of a point goes as the square of its scale: 1/distance².
             let weight = point.count * point.scale * point.scale / (2.0 * std::f32::consts::PI * sigma * sigma);
             let light = falls.light[point.level as usize].map(|line| line * weight);
-            if !(point.x.is_finite() && point.y.is_finite() && weight.is_finite()) {
-                continue;
+            if point.x.is_finite() && point.y.is_finite() && weight.is_finite() {
+                self.add_point(point, sigma, light, gaussian);
             }
-            if splat.table { self.add_by_table(&point, sigma, light, gaussian) } else { self.add_by_exponential(&point, sigma, light) }
         }
     }
 
@@ -68,21 +58,7 @@ impl Picture {
         (low, high)
     }
 
-    fn add_by_exponential(&mut self, point: &Point, sigma: f32, light: [f32; 4]) {
-        let (x0, x1) = Self::span(point.x, sigma, self.size[0]);
-        let (y0, y1) = Self::span(point.y, sigma, self.size[1]);
-        for y in y0..y1 {
-            for x in x0..x1 {
-                let (dx, dy) = (x as f32 + 0.5 - point.x, y as f32 + 0.5 - point.y);
-                let g = (-(dx * dx + dy * dy) / (2.0 * sigma * sigma)).exp();
-                for (pixel, light) in self.pixels[y * self.size[0] + x].iter_mut().zip(light) {
-                    *pixel += light * g;
-                }
-            }
-        }
-    }
-
-    fn add_by_table(&mut self, point: &Point, sigma: f32, light: [f32; 4], gaussian: &Gaussian) {
+    fn add_point(&mut self, point: &Point, sigma: f32, light: [f32; 4], gaussian: &Gaussian) {
         let (x0, x1) = Self::span(point.x, sigma, self.size[0]);
         let (y0, y1) = Self::span(point.y, sigma, self.size[1]);
         // A Gaussian is the product of one along x and one along y.
@@ -102,15 +78,6 @@ impl Picture {
                 for k in 0..4 {
                     pixel[k] += row[k] * g;
                 }
-            }
-        }
-    }
-
-    /// Adds another picture of the same size.
-    pub fn merge(&mut self, other: &Picture) {
-        for (pixel, more) in self.pixels.iter_mut().zip(&other.pixels) {
-            for k in 0..4 {
-                pixel[k] += more[k];
             }
         }
     }

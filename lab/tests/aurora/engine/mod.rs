@@ -1,4 +1,0 @@
-//! The experiment's drawing on the processor: walks, and pyramids of splats.
-
-mod pyramid;
-mod walk;
