@@ -35,6 +35,18 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    /// All.
+    pub const ALL: [Outcome; 8] = [
+        Outcome::Caught,
+        Outcome::HunterLost,
+        Outcome::QuarryLost,
+        Outcome::TimeOut,
+        Outcome::Done,
+        Outcome::Taken,
+        Outcome::ShipLost,
+        Outcome::Strayed,
+    ];
+
     /// As `[expect]` and tables write it.
     pub fn name(self) -> &'static str {
         match self {

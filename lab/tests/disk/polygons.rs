@@ -93,7 +93,7 @@ fn rings_that_turn_show_the_gas_of_those_at_rest() {
 /// there, so that most of their vertices found no room.
 #[test]
 fn polygons_are_seen_from_within_their_plane() {
-    let size = [480, 270];
+    let size = [240, 135];
     let mut renderer = renderer(size);
     let mut light = |representation: &str, height: f64| {
         renderer.set_disk(Some(polygons(representation)));
