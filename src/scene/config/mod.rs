@@ -22,7 +22,6 @@ pub use fields::{
     ShipConfig, Sky, Sound, Video, setting, settings,
 };
 pub use setting::{Allowed, Setting, Value};
-pub(super) use setting::{plain, range_text};
 
 /// The configuration's file where none is named.
 pub const FILE: &str = "game.toml";
