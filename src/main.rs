@@ -18,8 +18,8 @@ use lensrunner::picture_file::moment::{moment_of, read_moment};
 use lensrunner::scene::config::Assignment;
 use lensrunner::scene::crew::Crew;
 use lensrunner::scene::{self, Difficulty};
+use lensrunner::sim::Moment;
 use lensrunner::sim::replay::{Replay, ReplayError, record};
-use lensrunner::sim::restored::Restored;
 use lensrunner::sim::run::RunRequest;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::sim::snapshot::Snapshot;
@@ -349,11 +349,11 @@ fn run_shot(args: &ShotArgs) -> ExitCode {
         if let Err(error) = alone(args.at, args.config.as_ref(), &args.set) {
             return fail(&error, 2);
         }
-        let restored = match restored(from, args.size) {
-            Ok(restored) => restored,
+        let (snapshot, moment) = match flown_again(from, args.size) {
+            Ok(flown) => flown,
             Err(error) => return fail(&error, 2),
         };
-        return match shot_again_to_file(&restored, args.layers, !is_light, &args.output) {
+        return match shot_again_to_file(&snapshot, &moment, args.layers, !is_light, &args.output) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => fail_shot(&error),
         };
@@ -376,9 +376,10 @@ fn fail_shot(error: &lensrunner::render::shot::ShotError) -> ExitCode {
 }
 
 /// The moment in a file, flown again, to be drawn in `size` pixels or those of the picture.
-fn restored(from: &Path, size: Option<[u32; 2]>) -> Result<Restored, Box<dyn std::error::Error>> {
+fn flown_again(from: &Path, size: Option<[u32; 2]>) -> Result<(Snapshot, Moment), Box<dyn std::error::Error>> {
     let snapshot = Snapshot::from_text(from, &read_moment(from)?)?;
-    Ok(Restored::of(from, &snapshot.resized(size.unwrap_or(snapshot.size)))?)
+    let moment = snapshot.fly(from)?;
+    Ok((snapshot.resized(size.unwrap_or(snapshot.size)), moment))
 }
 
 /// A moment has a T and settings of its own.
@@ -417,9 +418,9 @@ fn run_trace(args: &TraceArgs) -> ExitCode {
         // A wrong argument is said before the flight is flown.
         Some(from) => to_file::check(&request, &output).and_then(|_| {
             alone(args.at, args.config.as_ref(), &args.set).map_err(case::TraceError::Input)?;
-            let restored = restored(from, args.size).map_err(|error| case::TraceError::Input(error.to_string()))?;
-            let (text, request) = (restored.snapshot.to_text(), case::TraceRequest { at: restored.snapshot.time, ..request });
-            let case = case::Case::restored(&restored, restored.snapshot.size);
+            let (snapshot, moment) = flown_again(from, args.size).map_err(|error| case::TraceError::Input(error.to_string()))?;
+            let (text, request) = (snapshot.to_text(), case::TraceRequest { at: snapshot.time, ..request });
+            let case = case::Case::again(&snapshot, &moment, snapshot.size);
             to_file::trace_case(&case, &request, &to_file::Output { text: Some(&text), ..output })
         }),
     };

@@ -150,9 +150,17 @@ fn module_of(path: &[String], modules: &BTreeMap<Module, PathBuf>) -> Module {
     (0..=path.len()).rev().map(|k| path[..k].to_vec()).find(|module| modules.contains_key(module)).unwrap_or_default()
 }
 
-/// For each module of a crate the paths that it names, from the root; what a module only hands on within its floor belongs to the file that
-/// defines it.
-fn imports(root: &Path) -> BTreeMap<Module, BTreeSet<Vec<String>>> {
+/// Something that a module imports, as paths from the root.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Import {
+    /// As it is named.
+    named: Vec<String>,
+    /// Where it is defined: `named`, unless that module only hands it on.
+    defined: Vec<String>,
+}
+
+/// What each module of a crate imports; what it only hands on within its floor is none of that.
+fn imports(root: &Path) -> BTreeMap<Module, BTreeSet<Import>> {
     let modules = modules(root);
     let mut handed_on: BTreeMap<Vec<String>, Vec<String>> = BTreeMap::new();
     let mut all: BTreeMap<Module, BTreeSet<Vec<String>>> = BTreeMap::new();
@@ -168,8 +176,8 @@ fn imports(root: &Path) -> BTreeMap<Module, BTreeSet<Vec<String>>> {
             }
         }
     }
-    let resolved = |path: &Vec<String>| {
-        let mut path = path.clone();
+    let import = |named: Vec<String>| {
+        let mut path = named.clone();
         for _ in 0..8 {
             let module = module_of(&path, &modules);
             match path.get(module.len()).and_then(|name| handed_on.get(&[&module[..], std::slice::from_ref(name)].concat())) {
@@ -177,9 +185,9 @@ fn imports(root: &Path) -> BTreeMap<Module, BTreeSet<Vec<String>>> {
                 _ => break,
             }
         }
-        path
+        Import { named, defined: path }
     };
-    all.into_iter().map(|(module, paths)| (module, paths.iter().map(resolved).collect())).collect()
+    all.into_iter().map(|(module, paths)| (module, paths.into_iter().map(import).collect())).collect()
 }
 
 fn packages() -> [PathBuf; 2] {
@@ -189,9 +197,9 @@ fn packages() -> [PathBuf; 2] {
 #[test]
 fn floors_know_only_the_floors_below() {
     let mut seen = 0;
-    for (module, paths) in imports(&packages()[0]) {
+    for (module, imports) in imports(&packages()[0]) {
         let Some((floor, allowed)) = module.first().and_then(|name| FLOORS.iter().find(|(floor, _)| floor == name)) else { continue };
-        for path in paths {
+        for path in imports.into_iter().map(|import| import.defined) {
             if path.first().is_none_or(|first| first == floor || !FLOORS.iter().any(|(name, _)| name == first)) {
                 continue;
             }
@@ -211,8 +219,10 @@ fn no_files_import_each_other_in_a_circle() {
     for root in packages() {
         let modules = modules(&root);
         let mut edges: BTreeMap<Module, BTreeSet<Module>> = BTreeMap::new();
-        for (module, paths) in imports(&root) {
-            let targets = paths.iter().map(|path| module_of(path, &modules)).filter(|target| *target != module && !target.is_empty());
+        for (module, imports) in imports(&root) {
+            // Both the file that defines it and the one that hands it on.
+            let paths = imports.iter().flat_map(|import| [&import.named, &import.defined]);
+            let targets = paths.map(|path| module_of(path, &modules)).filter(|target| *target != module && !target.is_empty());
             edges.insert(module.clone(), targets.collect());
         }
         assert!(

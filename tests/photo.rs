@@ -21,9 +21,9 @@ use lensrunner::render::shot::{shot_again, surroundings};
 use lensrunner::render::stage::{Stage, settings};
 use lensrunner::scene::crew::Crew;
 use lensrunner::scene::{self, Difficulty, GameConfig, Scene};
+use lensrunner::sim::Moment;
 use lensrunner::sim::replay::{Record, Replay};
-use lensrunner::sim::restored::Restored;
-use lensrunner::sim::snapshot::{Snapshot, View, step_after};
+use lensrunner::sim::snapshot::{FrameCamera, Snapshot, step_after};
 use lensrunner::sim::{Bolts, Fleet, Hands, History};
 
 use crate::gpu::GPU;
@@ -75,13 +75,15 @@ fn original(view: CameraView) -> (Picture, Snapshot) {
     let engines = Some([config.ship.thrust, config.enemy.thrust]);
     let settings = Settings { own_ship: Some(me), engines, ..settings(&config) };
     let picture = renderer.picture(&stage.frame(camera, SIZE, time, &histories, hidden, &settings), true).unwrap();
-    let view = View { time, ticks, camera, size: SIZE, hidden, lit: Some(me) };
-    (picture, Snapshot::new(&flight, &scene, &config, world, &view))
+    let shot = FrameCamera { camera, hidden, lit: Some(me) };
+    (picture, Snapshot::new(flight.up_to(ticks, world), &scene, &config, world, time, shot, SIZE))
 }
 
 /// What the PNG `path` carries, flown again.
-fn restored(path: &Path) -> Restored {
-    Restored::of(path, &Snapshot::from_text(path, &read_text(path).unwrap()).unwrap()).unwrap()
+fn flown_again(path: &Path) -> (Snapshot, Moment) {
+    let snapshot = Snapshot::from_text(path, &read_text(path).unwrap()).unwrap();
+    let moment = snapshot.fly(path).unwrap();
+    (snapshot, moment)
 }
 
 fn rgb(picture: &Picture) -> Vec<u8> {
@@ -111,13 +113,13 @@ fn a_picture_is_made_again_from_its_file() {
         let (picture, snapshot) = original(view);
         let path = folder.path().join(format!("{name}.png"));
         write_png_with_text(&path, &rgb(&picture), SIZE, &snapshot.to_text()).unwrap();
-        let restored = restored(&path);
-        let again = shot_again(&restored, SIZE, true, true).unwrap();
+        let (snapshot, moment) = flown_again(&path);
+        let again = shot_again(&snapshot, &moment, SIZE, true, true).unwrap();
         assert_same(name, &rgb(&picture), &rgb(&again));
         let differ = picture.layers.iter().zip(&again.layers).filter(|(a, b)| a != b).count();
         println!("{name}: layers of {differ} pixels have other bits");
         assert!(differ * 500 <= again.layers.len(), "{name}: {differ} pixels show other points");
-        let case = Case::restored(&restored, SIZE);
+        let case = Case::again(&snapshot, &moment, SIZE);
         let quality = Quality { samples: 1, tolerance: DEFAULT_TOLERANCE, packet: DEFAULT_PACKET };
         let judge = case.trace(&quality, true, &|_| ());
         let what = |id: u32| (id > 0).then(|| case.assembly.objects[id as usize - 1].name.clone());
@@ -165,15 +167,15 @@ fn frames_of_the_demonstration_are_made_again() {
     let (texture, view) = target(&GPU.device, "again", SIZE, wgpu::TextureFormat::Rgba8UnormSrgb);
     for frame in 0..FRAMES {
         let path = folder.path().join(format!("frames/frame-{frame:05}.png"));
-        let restored = restored(&path);
+        let (snapshot, moment) = flown_again(&path);
         let before = image::open(&path).unwrap().to_rgb8().into_raw();
-        let (config, snapshot) = (&restored.config, &restored.snapshot);
+        let (config, shot) = (snapshot.config(), snapshot.shot);
         let seconds = (report.span[1] - report.span[0]) / f64::from(FRAMES) / config.clock.pace;
         let adaptation = if frame == 0 { 1.0 } else { (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32 };
         let engines = Some([config.ship.thrust, config.enemy.thrust]);
-        let settings = Settings { own_ship: snapshot.lit, engines, adaptation, ..settings(config) };
-        let stage = Stage::new(&mut renderer, &restored.scene, &restored.levelled());
-        let input = stage.frame(snapshot.camera, SIZE, snapshot.time, &restored.histories(), snapshot.hidden, &settings);
+        let settings = Settings { own_ship: shot.lit, engines, adaptation, ..settings(&config) };
+        let stage = Stage::new(&mut renderer, &moment.scene, &snapshot.levelled(&moment.scene));
+        let input = stage.frame(shot.camera, SIZE, snapshot.time, &moment.all_histories(), shot.hidden, &settings);
         assert!(renderer.prepare(&input));
         let mut encoder = GPU.device.create_command_encoder(&Default::default());
         renderer.encode(&mut encoder, &view);
@@ -183,7 +185,7 @@ fn frames_of_the_demonstration_are_made_again() {
         assert_same(&format!("T = {}", snapshot.time), &before, &again);
         if frame == 0 {
             // Of the own ship's light, and of stars that just come to be seen, a little hangs on the frame before.
-            let alone = rgb(&shot_again(&restored, SIZE, false, true).unwrap());
+            let alone = rgb(&shot_again(&snapshot, &moment, SIZE, false, true).unwrap());
             let off = before.iter().zip(&alone).filter(|(a, b)| a.abs_diff(**b) > 8).count();
             assert!(off * 1000 < alone.len(), "{off} of {} values differ by more than 8", alone.len());
         }
@@ -202,23 +204,23 @@ fn a_scene_of_ones_own_travels_along() {
     let config = GameConfig::default();
     let flight = Replay::begin(&scene, &config, Difficulty::default(), Crew::Expert, 0);
     let camera = scene.camera.viewpoint(0.0, &[]);
-    let view = View { time: 0.5, ticks: 16, camera, size: SIZE, hidden: None, lit: None };
-    let snapshot = Snapshot::new(&flight, &scene, &config, &bevy::prelude::World::new(), &view);
+    let (world, shot) = (bevy::prelude::World::new(), FrameCamera { camera, hidden: None, lit: None });
+    let snapshot = Snapshot::new(flight.up_to(16, &world), &scene, &config, &world, 0.5, shot, SIZE);
     let path = Path::new("a.png");
     let read = Snapshot::from_text(path, &snapshot.to_text()).unwrap();
-    let again = Restored::of(path, &read).unwrap();
+    let again = read.fly(path).unwrap();
     assert_eq!((again.scene.name.as_str(), again.scene.fingerprint), ("mine", scene.fingerprint));
     let refused = |change: &dyn Fn(&mut Snapshot), told: &str| {
         let mut other = read.clone();
         change(&mut other);
-        let said = Restored::of(path, &other).err().unwrap_or_else(|| panic!("refused: {told}")).to_string();
+        let said = other.fly(path).err().unwrap_or_else(|| panic!("refused: {told}")).to_string();
         assert!(said.contains(told), "{told}: {said}");
     };
     refused(&|other| other.models.push("lost.glb".into()), "lost.glb");
     refused(&|other| other.scene = Some(text.replace("# mine", "# yours")), "not the one");
     refused(&|other| other.scene = Some("[[ship]]\nnose = 1".into()), "nose");
     refused(&|other| other.scene = None, "mine");
-    refused(&|other| other.lit = Some(9), "no ship number 9");
+    refused(&|other| other.shot.lit = Some(9), "no ship number 9");
     refused(&|other| other.flight.hash = "0123456789abcdef".into(), "elsewhere");
 }
 
@@ -226,8 +228,8 @@ fn a_scene_of_ones_own_travels_along() {
 fn picture(folder: &Folder, name: &str, size: [u32; 2]) -> PathBuf {
     let (scene, config, flight) = flight();
     let camera = scene.camera.viewpoint(0.0, &[]);
-    let view = View { time: 0.4, ticks: 13, camera, size, hidden: None, lit: None };
-    let snapshot = Snapshot::new(&flight, &scene, &config, &bevy::prelude::World::new(), &view);
+    let (world, shot) = (bevy::prelude::World::new(), FrameCamera { camera, hidden: None, lit: None });
+    let snapshot = Snapshot::new(flight.up_to(13, &world), &scene, &config, &world, 0.4, shot, size);
     let path = folder.path().join(name);
     std::fs::write(&path, png(&[0; 3], [1, 1], true, Some(&snapshot.to_text())).unwrap()).unwrap();
     path
@@ -248,7 +250,7 @@ fn the_commands_take_a_picture() {
             let ran = lensrunner(&[&[command, "--from", from, "-o", out_text], arguments].concat());
             assert!(ran.status.success(), "{command}: {}", String::from_utf8_lossy(&ran.stderr));
             assert_eq!(image::image_dimensions(&out).unwrap(), size.into());
-            assert_eq!(restored(&out).snapshot.size, size, "it carries its moment on");
+            assert_eq!(flown_again(&out).0.size, size, "it carries its moment on");
         }
         std::fs::write(folder.path().join("plain.png"), png(&[0; 3], [1, 1], true, None).unwrap()).unwrap();
         let ran = lensrunner(&[command, "--from", folder.path().join("plain.png").to_str().unwrap(), "-o", out_text]);

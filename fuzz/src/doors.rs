@@ -13,7 +13,6 @@ use lensrunner::scene::crew::Crew;
 use lensrunner::scene::model::import::load_model;
 use lensrunner::scene::{self, Difficulty, GameConfig, Scene};
 use lensrunner::sim::replay::Replay;
-use lensrunner::sim::restored::Restored;
 use lensrunner::sim::run::fly_to_end;
 use lensrunner::sim::snapshot::Snapshot;
 use lensrunner::sim::sweep::Axis;
@@ -195,7 +194,7 @@ pub fn moment(bytes: &[u8]) -> Result<(), String> {
     let snapshot = said(Snapshot::from_text(&path, &text))?;
     assert_eq!(Snapshot::from_text(&path, &snapshot.to_text()).expect("its own text"), snapshot);
     if snapshot.flight.ticks <= STEPS {
-        _ = said(Restored::of(&path, &snapshot))?;
+        _ = said(snapshot.fly(&path))?;
     }
     Ok(())
 }

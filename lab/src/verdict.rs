@@ -10,7 +10,7 @@ use lensrunner::judge::picture::DEFAULT_PACKET;
 use lensrunner::picture_file::moment::{moment_of, read_moment};
 use lensrunner::scene;
 use lensrunner::scene::crew::Crew;
-use lensrunner::sim::restored::Restored;
+use lensrunner::sim::Moment;
 use lensrunner::sim::snapshot::Snapshot;
 use lensrunner_lab::compare::{command, flight, judged::Terms, random};
 use lensrunner_lab::contestant::Contestant;
@@ -128,15 +128,13 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         if args.at.is_some() || args.config.is_some() || args.table.is_some() {
             return fail(&"a moment has its own T and settings: --at, --config and --table do not go with it", 2);
         }
-        let (output, restored) = (
-            args.output.clone().unwrap_or_default(),
-            match restored(from, args.size) {
-                Ok(restored) => restored,
-                Err(error) => return fail(&error, 2),
-            },
-        );
-        let (scene, size, at) = (restored.scene.name.clone(), restored.snapshot.size, restored.snapshot.time);
-        let case = Case::restored(&restored, size);
+        let output = args.output.clone().unwrap_or_default();
+        let (snapshot, moment) = match flown_again(from, args.size) {
+            Ok(flown) => flown,
+            Err(error) => return fail(&error, 2),
+        };
+        let (scene, size, at) = (moment.scene.name.clone(), snapshot.size, snapshot.time);
+        let case = Case::again(&snapshot, &moment, size);
         command::run_case(&case, &trace_request(args, scene, size, at), &output, None, &draw).map(|faults| !faults.is_empty())
     } else {
         let (scene, output) = (args.scene.clone().unwrap_or_default(), args.output.clone().unwrap_or_default());
@@ -164,7 +162,8 @@ fn trace_request(args: &CompareArgs, scene: String, size: [u32; 2], at: f64) -> 
 }
 
 /// The moment in a file, flown again, to be drawn in `size` pixels or those of the picture.
-fn restored(from: &Path, size: Option<[u32; 2]>) -> Result<Restored, Box<dyn std::error::Error>> {
+fn flown_again(from: &Path, size: Option<[u32; 2]>) -> Result<(Snapshot, Moment), Box<dyn std::error::Error>> {
     let snapshot = Snapshot::from_text(from, &read_moment(from)?)?;
-    Ok(Restored::of(from, &snapshot.resized(size.unwrap_or(snapshot.size)))?)
+    let moment = snapshot.fly(from)?;
+    Ok((snapshot.resized(size.unwrap_or(snapshot.size)), moment))
 }

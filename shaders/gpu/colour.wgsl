@@ -20,6 +20,17 @@ fn blackbody_rgb(temperature: f32) -> vec3<f32> {
     return exp(mix(a, b, vec3<f32>(x - f32(i))));
 }
 
+/// Light of a black body seen at frequency ratio g, in the unit of `blackbody_rgb`: that of one at gT. If the shift of colour or of
+/// brightness is switched off, that one is as at rest.
+fn black_body_seen(temperature: f32, g: f32, doppler: bool, beaming: bool) -> vec3<f32> {
+    let shown = blackbody_rgb(temperature * select(1.0, g, doppler));
+    if doppler == beaming {
+        return shown;
+    }
+    let felt = blackbody_rgb(temperature * select(1.0, g, beaming));
+    return shown * (luminance(felt) / max(luminance(shown), 1e-30));
+}
+
 fn luminance(rgb: vec3<f32>) -> f32 {
     // ITU-R BT.709 primaries.
     return dot(rgb, vec3<f32>(0.2126, 0.7152, 0.0722));

@@ -335,7 +335,7 @@ struct Material {
     metallic: f32,
     /// Of the textures, or −1.
     layer: f32,
-    /// 1 if the base colour shines by itself.
+    /// In K: it glows as a black body besides; 0 does not.
     temperature: f32,
     /// 1 if it shines as the engines burn.
     nozzle: f32,

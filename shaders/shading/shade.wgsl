@@ -2,7 +2,7 @@
 
 #import lensrunner::chosen::worldlines::before_turning
 #import lensrunner::gpu::bindings::frame
-#import lensrunner::gpu::colour::{luminance, shifted_colour}
+#import lensrunner::gpu::colour::{black_body_seen, luminance, shifted_colour}
 #import lensrunner::gpu::types::{FLAG_BEAMING, FLAG_DOPPLER, Instance, INSTANCE_OWN, SeenVertex}
 #import lensrunner::instances::instance::instance_at
 #import lensrunner::shading::aurora_light::{aurora_light, ground_place}
@@ -33,6 +33,8 @@ struct Surface {
     @location(10) @interpolate(flat) emissive: vec4<f32>,
     /// `ground_place`.
     @location(11) ground: vec3<f32>,
+    /// In K; 0 does not glow.
+    @location(12) @interpolate(flat) temperature: f32,
 }
 
 fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> Surface {
@@ -45,7 +47,7 @@ fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> S
         vec3<f32>(vertex.uv, vertex.path), coverage, vec3<f32>(vertex.axis_uv, vertex.from_axis),
         vec3<u32>(instance.object, instance.order, u32(material.layer + 1.0)), instance.light_red * filled, instance.light_green * filled,
         instance.light_blue * filled, vec4<f32>(material.base, material.metallic), vec4<f32>(emissive, material.roughness),
-        ground_place(instance, before_turning(instance, vertex.normal, vertex.path)));
+        ground_place(instance, before_turning(instance, vertex.normal, vertex.path)), material.temperature);
 }
 
 /// Factor on the light that falls on the player's own ship, so that middle grey, at the exposure of the frame before, is neither too dark
@@ -61,6 +63,8 @@ fn fill(instance: Instance) -> f32 {
 
 /// Share of light that middle grey reflects.
 const MIDDLE_GREY: f32 = 0.18;
+/// Light of a black body at 5,772 K in the scene's unit of radiance, whether it is gas of the disk or a surface.
+const DISK_UNIT: f32 = 24.0;
 
 /// `texture_point` at a pixel.
 fn texture_place(in: Surface) -> vec2<f32> {
@@ -94,7 +98,13 @@ fn shaded(in: Surface) -> vec3<f32> {
     colour += (fresnel + (1.0 - fresnel) * rim * (1.0 - roughness)) * reflected * gloss(in, mirrored, roughness);
     let flags = frame.flags;
     let g = in.normal.w;
-    return min(shifted_colour(colour, g, (flags & FLAG_DOPPLER) != 0u, (flags & FLAG_BEAMING) != 0u), vec3<f32>(6e4));
+    let doppler = (flags & FLAG_DOPPLER) != 0u;
+    let beaming = (flags & FLAG_BEAMING) != 0u;
+    var shifted = shifted_colour(colour, g, doppler, beaming);
+    if in.temperature > 0.0 {
+        shifted += DISK_UNIT * black_body_seen(in.temperature, g, doppler, beaming);
+    }
+    return min(shifted, vec3<f32>(6e4));
 }
 
 /// Light that falls on a surface of normal n: ambient and first harmonic of what shines around the object.

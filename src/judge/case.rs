@@ -16,7 +16,7 @@ use crate::scene::lighting::Lights;
 use crate::scene::planet::{AuroraShape, Planet};
 use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError};
 use crate::sim::history::MotionBounds;
-use crate::sim::restored::Restored;
+use crate::sim::snapshot::Snapshot;
 use crate::sim::{History, Moment};
 use crate::spacetime::Observer;
 use crate::spacetime::orbit::orbital_frequency;
@@ -213,19 +213,18 @@ impl Case {
     /// The same with bolts, seen by a camera of one's own in which the ship `hidden` is not drawn.
     pub fn seen(scene: Scene, config: GameConfig, moment: &Moment, observer: Observer, hidden: Option<usize>, size: [u32; 2]) -> Case {
         let (time, camera) = (moment.time(), PixelCamera { observer, size });
-        let ships = moment.histories().into_iter().cloned();
-        let histories = ships.chain([History::nobody()]).chain(moment.bolts().into_iter().cloned()).collect();
+        let histories = moment.all_histories().into_iter().cloned().collect();
         let assembly = scene.assemble(&config);
         Case { scene, config, assembly, time, histories: known_back(histories, time, &camera), hidden, camera, ended: Ok(()) }
     }
 
-    /// The moment of a picture, seen by its camera in a picture of `size` pixels.
-    pub fn restored(restored: &Restored, size: [u32; 2]) -> Case {
-        let (scene, config, time) = (restored.scene.clone(), restored.levelled(), restored.snapshot.time);
-        let camera = PixelCamera { observer: restored.snapshot.camera, size };
-        let histories = known_back(restored.histories().into_iter().cloned().collect(), time, &camera);
+    /// The moment of a picture, flown again, seen by its camera in a picture of `size` pixels.
+    pub fn again(snapshot: &Snapshot, moment: &Moment, size: [u32; 2]) -> Case {
+        let (scene, config, time) = (moment.scene.clone(), snapshot.levelled(&moment.scene), snapshot.time);
+        let camera = PixelCamera { observer: snapshot.shot.camera, size };
+        let histories = known_back(moment.all_histories().into_iter().cloned().collect(), time, &camera);
         let assembly = scene.assemble(&config);
-        Case { scene, config, assembly, time, histories, hidden: restored.snapshot.hidden, camera, ended: Ok(()) }
+        Case { scene, config, assembly, time, histories, hidden: snapshot.shot.hidden, camera, ended: Ok(()) }
     }
 
     /// An error if the camera is where nothing is seen.

@@ -11,7 +11,7 @@ use crate::scene::camera::viewpoint::CameraEnded;
 pub use crate::scene::picture_size as size;
 use crate::scene::{self, ConfigError, GameConfig, SceneError};
 pub use crate::sim::Moment;
-use crate::sim::restored::Restored;
+use crate::sim::snapshot::Snapshot;
 
 use crate::render::frame::FrameInput;
 use crate::render::gpu::readback::{Picture, PictureError};
@@ -109,14 +109,14 @@ pub fn shot(request: &ShotRequest, config: &GameConfig) -> Result<Picture, ShotE
 
 /// Draws the moment of a picture of the game again, in `size` pixels. `fill`: the player's ship is lit as the game does it; not so where
 /// light itself is asked for. The eye has adapted; the ghost of an earlier flight is left out, and an aurora is as after no frames before.
-pub fn shot_again(restored: &Restored, size: [u32; 2], layers: bool, fill: bool) -> Result<Picture, ShotError> {
-    let (config, snapshot) = (&restored.config, &restored.snapshot);
+pub fn shot_again(snapshot: &Snapshot, moment: &Moment, size: [u32; 2], layers: bool, fill: bool) -> Result<Picture, ShotError> {
+    let (config, shot) = (snapshot.config(), &snapshot.shot);
     let gpu = Gpu::headless()?;
     let mut renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    let stage = Stage::new(&mut renderer, &restored.scene, &restored.levelled());
+    let stage = Stage::new(&mut renderer, &moment.scene, &snapshot.levelled(&moment.scene));
     let settings =
-        Settings { own_ship: snapshot.lit.filter(|_| fill), engines: Some([config.ship.thrust, config.enemy.thrust]), ..settings(config) };
-    let frame = stage.frame(snapshot.camera, size, snapshot.time, &restored.histories(), snapshot.hidden, &settings);
+        Settings { own_ship: shot.lit.filter(|_| fill), engines: Some([config.ship.thrust, config.enemy.thrust]), ..settings(&config) };
+    let frame = stage.frame(shot.camera, size, snapshot.time, &moment.all_histories(), shot.hidden, &settings);
     complete(&mut renderer, &frame, layers)
 }
 
@@ -140,11 +140,10 @@ pub fn shot_to_file(request: &ShotRequest, config: &GameConfig, output: &Path) -
 }
 
 /// The same of the moment of a picture; a PNG carries that moment on.
-pub fn shot_again_to_file(restored: &Restored, layers: bool, fill: bool, output: &Path) -> Result<(), ShotError> {
+pub fn shot_again_to_file(snapshot: &Snapshot, moment: &Moment, layers: bool, fill: bool, output: &Path) -> Result<(), ShotError> {
     if !matches!(output.extension().and_then(|extension| extension.to_str()), Some("png" | "exr")) {
         return Err(PictureError::Format(output.display().to_string()).into());
     }
-    let snapshot = &restored.snapshot;
-    shot_again(restored, snapshot.size, layers, fill)?.write_with_text(output, Some(&snapshot.to_text()))?;
+    shot_again(snapshot, moment, snapshot.size, layers, fill)?.write_with_text(output, Some(&snapshot.to_text()))?;
     Ok(())
 }

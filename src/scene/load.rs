@@ -6,13 +6,13 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 use toml::Spanned;
-use toml::de::DeValue;
+use toml::de::{DeTable, DeValue};
 
 use super::camera::{CameraEntry, SceneCamera, check_camera};
 use super::config::{self, GameConfig};
 use super::document::error::{Complaints, SceneError};
 use super::document::fault::{Fault, fault};
-use super::document::{complain_all, document, one, parse};
+use super::document::{Document, one};
 use super::expect::{Expect, ExpectEntry, check_expect};
 use super::mission::{Difficulty, GateEntry, GoalEntry, Mission, MissionEntry, check_mission, levels};
 use super::planet::{Planet, PlanetEntry, SkyEntry, SkySwitches, check_planet, check_sky};
@@ -70,6 +70,7 @@ struct SceneFile {
     ship: Vec<Spanned<ShipEntry>>,
     #[serde(default)]
     prop: Vec<Spanned<PropEntry>>,
+    /// Read from the document, as its keys are those of `game.toml`; so is `difficulty`.
     disk: Option<toml::Table>,
     planet: Option<PlanetEntry>,
     #[serde(default)]
@@ -81,7 +82,6 @@ struct SceneFile {
     goal: Vec<Spanned<GoalEntry>>,
     #[serde(default)]
     gate: Vec<Spanned<GateEntry>>,
-    /// Read from the document, as its keys are those of `game.toml`.
     difficulty: Option<toml::Table>,
     expect: Option<ExpectEntry>,
 }
@@ -127,12 +127,14 @@ impl Scene {
 
     /// Reads the text of a scene file; `file` names it in complaints and gives the scene its name.
     pub fn from_toml(file: &Path, text: &str) -> Result<Scene, Complaints> {
-        let entry: SceneFile = parse(file, text).map_err(one)?;
-        let mut scene = check(&entry).map_err(|fault| complain_all(file, text, vec![fault]))?;
-        scene.mission = mission(file, text, &entry, &scene.ships)?.map(Arc::new);
+        let document = Document::parse(file, text).map_err(one)?;
+        let entry: SceneFile = document.read().map_err(one)?;
+        let mut scene = check(&entry).map_err(|fault| document.complain(vec![fault]))?;
+        let mission = mission(document.table(), &entry, &scene.ships).map_err(|faults| document.complain(faults))?;
+        scene.mission = mission.map(Arc::new);
         (scene.text, scene.fingerprint) = (text.into(), fingerprint(text));
         let name = file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        let disk = entry.disk.is_some().then(|| disk_keys(file, text)).transpose()?;
+        let disk = entry.disk.is_some().then(|| disk_keys(document.table())).transpose().map_err(|faults| document.complain(faults))?;
         Ok(Scene { name, disk, ..scene })
     }
 }
@@ -182,18 +184,17 @@ fn check(entry: &SceneFile) -> Result<Scene, Fault> {
 }
 
 /// The mission of a file, checked; None for a scene that is none.
-fn mission(file: &Path, text: &str, entry: &SceneFile, ships: &[ShipSpec]) -> Result<Option<Mission>, Complaints> {
+fn mission(document: &DeTable<'_>, entry: &SceneFile, ships: &[ShipSpec]) -> Result<Option<Mission>, Vec<Fault>> {
     let Some(mission) = &entry.mission else {
         let parts = entry.goal.first().map(Spanned::span).or(entry.gate.first().map(Spanned::span));
         let message = "[[goal]], [[gate]] and [difficulty] need a [mission]";
         return match parts.or(entry.difficulty.as_ref().map(|_| 0..0)) {
-            Some(span) => Err(complain_all(file, text, vec![Fault { span, message: message.into() }])),
+            Some(span) => Err(vec![Fault { span, message: message.into() }]),
             None => Ok(None),
         };
     };
-    let document = document(file, text).map_err(one)?;
-    let levels = levels(document.get_ref()).map_err(|faults| complain_all(file, text, faults))?;
-    check_mission(mission, &entry.goal, &entry.gate, ships, levels).map(Some).map_err(|fault| complain_all(file, text, vec![fault]))
+    let levels = levels(document)?;
+    check_mission(mission, &entry.goal, &entry.gate, ships, levels).map(Some).map_err(|fault| vec![fault])
 }
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo), of a text.
@@ -202,14 +203,11 @@ fn fingerprint(text: &str) -> u64 {
 }
 
 /// The keys of `[disk]`, checked by the table of `game.toml`.
-fn disk_keys(file: &Path, text: &str) -> Result<DiskKeys, Complaints> {
-    let document = document(file, text).map_err(one)?;
-    let Some(DeValue::Table(table)) = document.get_ref().get("disk").map(Spanned::get_ref) else {
-        return Ok(DiskKeys(Vec::new()));
-    };
+fn disk_keys(document: &DeTable<'_>) -> Result<DiskKeys, Vec<Fault>> {
+    let Some(DeValue::Table(table)) = document.get("disk").map(Spanned::get_ref) else { return Ok(DiskKeys(Vec::new())) };
     let mut checked = GameConfig::default();
     let faults = config::apply_table(&mut checked, "disk", table);
-    config::check_all(&checked, faults, document.get_ref()).map_err(|faults| complain_all(file, text, faults))?;
+    config::check_all(&checked, faults, document)?;
     let given = |key: &str| table.iter().any(|(name, _)| name.get_ref() == key);
     Ok(DiskKeys(
         config::settings()

@@ -12,7 +12,7 @@
 //! texture = "checker"            # or "galaxy"; none if absent
 //! colour = [0.8, 0.8, 0.8]       # linear, multiplied by the texture; black is no surface and mirrors nothing
 //! emissive = [0.0, 0.0, 0.0]     # light given off (times the texture)
-//! temperature = 0.0              # K: glows as a black body; 0 does not
+//! temperature = 0.0              # K: glows as a black body besides, in the unit of the disk's light; 0 does not
 //! count = [14, 14, 14]           # "lattice" only: spheres along x, y, z, centred on position
 //! spacing = 2.0                  # "lattice" only: r_s between neighbours
 //! clearance = 1.2                # "lattice" only: spheres that come nearer to the hole than this are left out, r_s

@@ -19,7 +19,6 @@ pub mod moment;
 pub mod physics;
 pub mod pilot;
 pub mod replay;
-pub mod restored;
 pub mod rules;
 pub mod run;
 pub mod seeing;

@@ -22,15 +22,16 @@ fn mark_player(world: &mut World, ship: Option<usize>) {
 
 /// A scene with its ships at a time T.
 pub struct Moment {
+    /// The scene.
+    pub scene: Scene,
     world: App,
-    names: Vec<String>,
+    nobody: History,
 }
 
 impl Moment {
     /// Plays the scene from T = 0 to T = `at`.
     pub fn new(scene: &Scene, config: &GameConfig, at: f64, seed: u64) -> Moment {
-        let world = app_of(scene, config, seed);
-        let mut moment = Moment { world, names: scene.ships.iter().map(|ship| ship.name.clone()).collect() };
+        let mut moment = Moment { scene: scene.clone(), world: app_of(scene, config, seed), nobody: History::nobody() };
         let step = moment.world.world().resource::<Clock>().step;
         moment.advance((at / step).round() as u64);
         moment
@@ -53,7 +54,7 @@ impl Moment {
         mark_player(world, player);
         world.insert_resource(Playback::of(flight));
         board(world, flight.crew);
-        let mut moment = Moment { world: app, names: scene.ships.iter().map(|ship| ship.name.clone()).collect() };
+        let mut moment = Moment { scene: scene.clone(), world: app, nobody: History::nobody() };
         moment.advance(flight.ticks);
         moment
     }
@@ -79,7 +80,8 @@ impl Moment {
     pub fn ships(&self) -> Vec<(&str, ShipState)> {
         let world = self.world.world();
         let fleet = &world.resource::<Fleet>().0;
-        fleet.iter().zip(&self.names).filter_map(|(&entity, name)| Some((name.as_str(), world.get::<ShipMotion>(entity)?.0))).collect()
+        let ships = fleet.iter().zip(&self.scene.ships);
+        ships.filter_map(|(&entity, ship)| Some((ship.name.as_str(), world.get::<ShipMotion>(entity)?.0))).collect()
     }
 
     /// Of the ships' state, as a replay keeps it.
@@ -96,5 +98,10 @@ impl Moment {
     pub fn histories(&self) -> Vec<&History> {
         let world = self.world.world();
         world.resource::<Fleet>().0.iter().filter_map(|&entity| world.get::<History>(entity)).collect()
+    }
+
+    /// Worldlines of all that flies: of the ships, then nobody's in the ghost's place, then those of the bolts.
+    pub fn all_histories(&self) -> Vec<&History> {
+        self.histories().into_iter().chain([&self.nobody]).chain(self.bolts()).collect()
     }
 }

@@ -10,10 +10,10 @@ use glam::{DQuat, DVec3};
 use serde::Deserialize;
 
 use super::replay::{Replay, ReplayError, settings, settings_text};
-use super::run::state_hash;
 use super::ship::Player;
-use super::{Clock, Fleet};
+use super::{Fleet, Moment};
 use crate::scene::config::{self, Value};
+use crate::scene::model::import::model_file;
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::Observer;
 use crate::user_file::{brief, short};
@@ -35,6 +35,17 @@ const FIELDS_OF_VIEW: (f64, f64) = (0.017, 2.97);
 /// The longest side of a picture, in pixels.
 const LONGEST: u32 = 16384;
 
+/// The camera of a frame, and what it does to the ships.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameCamera {
+    /// Who looks.
+    pub camera: Observer,
+    /// The ship that is not drawn: the cockpit's own.
+    pub hidden: Option<usize>,
+    /// The ship that is lit so that it is seen.
+    pub lit: Option<usize>,
+}
+
 /// One frame of a flight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
@@ -44,14 +55,10 @@ pub struct Snapshot {
     pub player: Option<usize>,
     /// T of the frame, in r_s/c: at the flight's last step or between that and the one before.
     pub time: f64,
-    /// Who looks.
-    pub camera: Observer,
+    /// From where it is seen.
+    pub shot: FrameCamera,
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// The ship that is not drawn: the cockpit's own.
-    pub hidden: Option<usize>,
-    /// The ship that is lit so that it is seen.
-    pub lit: Option<usize>,
     /// What of `game.toml` the picture depends on beyond the flight, where it is not the default: dotted keys and values.
     pub settings: Vec<(String, Value)>,
     /// The whole text of a scene that does not come with the game.
@@ -129,46 +136,28 @@ struct CameraFile {
     field_of_view: f64,
 }
 
-/// A frame as it is drawn: what a snapshot holds beyond flight and scene.
-#[derive(Clone, Copy, Debug)]
-pub struct View {
-    /// T, in r_s/c.
-    pub time: f64,
-    /// Steps flown by then: the last is at or after `time`.
-    pub ticks: u64,
-    /// Who looks.
-    pub camera: Observer,
-    /// Width and height in pixels.
-    pub size: [u32; 2],
-    /// The ship that is not drawn.
-    pub hidden: Option<usize>,
-    /// The ship that is lit so that it is seen.
-    pub lit: Option<usize>,
-}
-
 impl Snapshot {
-    /// Of a frame of `flight`, which may go on after it, in `world`. `config` is `game.toml` before the difficulty.
-    pub fn new(flight: &Replay, scene: &Scene, config: &GameConfig, world: &World, view: &View) -> Snapshot {
-        let ticks = view.ticks;
-        let hash = world.get_resource::<Clock>().filter(|clock| clock.tick == ticks).map(|_| state_hash(world).to_string());
+    /// Of the frame at T = `time` in `world`, after the `flight` up to the step at or after it. `config` is `game.toml` before the
+    /// difficulty.
+    pub fn new(
+        flight: Replay,
+        scene: &Scene,
+        config: &GameConfig,
+        world: &World,
+        time: f64,
+        shot: FrameCamera,
+        size: [u32; 2],
+    ) -> Snapshot {
         let matters = |section: &str, path: &str| SECTIONS.contains(&section) || path == FIELD_OF_VIEW;
         let usual = GameConfig::default();
         let settings = config::settings().iter().filter(|setting| matters(setting.section, &setting.path()));
         let own = Some(scene).filter(|scene| scene.foreign);
         Snapshot {
-            flight: Replay {
-                records: flight.records.iter().take_while(|record| record.tick < ticks).copied().collect(),
-                ticks,
-                outcome: "undecided".into(),
-                hash: hash.unwrap_or_default(),
-                ..flight.clone()
-            },
+            flight,
             player: world.get_resource::<Fleet>().and_then(|fleet| fleet.0.iter().position(|&ship| world.get::<Player>(ship).is_some())),
-            time: view.time,
-            camera: view.camera,
-            size: view.size,
-            hidden: view.hidden,
-            lit: view.lit,
+            time,
+            shot,
+            size,
             settings: settings
                 .map(|setting| (setting.path(), setting.get(config), setting.get(&usual)))
                 .filter(|(_, value, usual)| value != usual)
@@ -196,26 +185,66 @@ impl Snapshot {
         config
     }
 
+    /// The same as the mission of `scene` has it on the difficulty of the flight.
+    pub fn levelled(&self, scene: &Scene) -> GameConfig {
+        scene.config(&self.config(), self.flight.difficulty)
+    }
+
+    /// Flies it again up to its frame: its scene, with a ship where it was flown freely, and the worldlines. `path` is the picture that it
+    /// came from. The ghost of an earlier flight is left out: the picture does not carry that flight.
+    pub fn fly(&self, path: &Path) -> Result<Moment, SnapshotError> {
+        let flight = &self.flight;
+        let damaged = |problem: String| SnapshotError::Damaged { path: path.to_path_buf(), problem };
+        let scene = match &self.scene {
+            Some(text) => {
+                let name = format!("{}.toml", flight.scene);
+                let mut scene =
+                    Scene::from_toml(Path::new(&name), text).map_err(|wrong| damaged(format!("the scene that it carries: {wrong}")))?;
+                if scene.fingerprint != flight.fingerprint {
+                    return Err(damaged("the scene that it carries is not the one of its flight".into()));
+                }
+                scene.foreign = true;
+                scene
+            }
+            None => flight.scene(path, None)?,
+        };
+        let scene = scene.with_a_ship();
+        let missing = self.models.iter().map(|model| model_file(model)).find(|model| !model.is_there());
+        if let Some(model) = missing {
+            return Err(SnapshotError::NoModel { path: path.to_path_buf(), scene: scene.name, model: model.path });
+        }
+        let named = [self.player, self.shot.hidden, self.shot.lit];
+        if let Some(ship) = named.into_iter().flatten().find(|ship| *ship >= scene.ships.len()) {
+            return Err(damaged(format!("the scene {:?} has no ship number {ship}", scene.name)));
+        }
+        let moment = Moment::flown(&scene, &self.levelled(&scene), flight, self.player);
+        if !flight.hash.is_empty() && flight.hash != moment.hash() {
+            return Err(SnapshotError::Differs(path.to_path_buf()));
+        }
+        Ok(moment)
+    }
+
     /// Its text.
     pub fn to_text(&self) -> String {
         let number = |x: f64| toml::Value::Float(x).to_string();
         let numbers = |all: &[f64]| all.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
         let quoted = |word: &str| toml::Value::String(word.to_owned()).to_string();
         let [width, height] = self.size;
+        let FrameCamera { camera, hidden, lit } = &self.shot;
         let mut text = format!(
             "snapshot = {FORMAT}\nversion = {}\ntime = {}\nsize = [{width}, {height}]\n",
             quoted(env!("CARGO_PKG_VERSION")),
             number(self.time)
         );
-        for (key, ship) in [("player", self.player), ("hidden", self.hidden), ("lit", self.lit)] {
+        for (key, ship) in [("player", self.player), ("hidden", *hidden), ("lit", *lit)] {
             text += &ship.map_or(String::new(), |ship| format!("{key} = {ship}\n"));
         }
         text += &format!(
             "camera = {{ position = [{}], momentum = [{}], attitude = [{}], field_of_view = {} }}\nsettings = {}\n",
-            numbers(&self.camera.position.to_array()),
-            numbers(&self.camera.momentum.to_array()),
-            numbers(&self.camera.attitude.to_array()),
-            number(self.camera.field_of_view),
+            numbers(&camera.position.to_array()),
+            numbers(&camera.momentum.to_array()),
+            numbers(&camera.attitude.to_array()),
+            number(camera.field_of_view),
             settings_text(&self.settings),
         );
         if let Some(scene) = &self.scene {
@@ -244,19 +273,18 @@ impl Snapshot {
         if let Some((path, _)) = settings.iter().find(|(path, _)| !is_ours(path)) {
             return Err(damaged(format!("{path} is no setting of a picture")));
         }
+        let camera = Observer {
+            position: DVec3::from_array(file.camera.position),
+            momentum: DVec3::from_array(file.camera.momentum),
+            attitude: DQuat::from_array(file.camera.attitude),
+            field_of_view: file.camera.field_of_view,
+        };
         let snapshot = Snapshot {
             flight: Replay::from_text(path, &file.flight)?,
             player: file.player,
             time: file.time,
-            camera: Observer {
-                position: DVec3::from_array(file.camera.position),
-                momentum: DVec3::from_array(file.camera.momentum),
-                attitude: DQuat::from_array(file.camera.attitude),
-                field_of_view: file.camera.field_of_view,
-            },
+            shot: FrameCamera { camera, hidden: file.hidden, lit: file.lit },
             size: file.size,
-            hidden: file.hidden,
-            lit: file.lit,
             settings,
             scene: file.scene,
             models: file.models,
@@ -266,7 +294,7 @@ impl Snapshot {
 
     /// What is wrong with its numbers, if anything is.
     fn fault(&self) -> Option<String> {
-        let Snapshot { time, camera, size, flight, .. } = self;
+        let Snapshot { time, shot: FrameCamera { camera, .. }, size, flight, .. } = self;
         let out = |what: &str, value: &dyn std::fmt::Debug, allowed: String| Some(format!("its {what}, {value:?}, must be {allowed}"));
         let config = self.config();
         // Not negated comparisons: what is not a number is in no range.
@@ -330,8 +358,8 @@ mod tests {
             attitude: DQuat::from_scaled_axis(DVec3::new(0.1, 0.7, -2.0)),
             field_of_view: 47.3f64.to_radians(),
         };
-        let view = View { time: 20.4 / 32.0, ticks: 21, camera, size: [641, 359], hidden: Some(0), lit: None };
-        Snapshot::new(&flight, &scene, &config, &World::new(), &view)
+        let (world, shot) = (World::new(), FrameCamera { camera, hidden: Some(0), lit: None });
+        Snapshot::new(flight.up_to(21, &world), &scene, &config, &world, 20.4 / 32.0, shot, [641, 359])
     }
 
     #[test]
@@ -345,7 +373,7 @@ mod tests {
         let after = Snapshot::from_text(Path::new("x.png"), &text).expect("a snapshot");
         assert_eq!(after, before);
         // Equal numbers may have other bits: −0.
-        assert_eq!(after.camera.momentum.x.to_bits(), before.camera.momentum.x.to_bits());
+        assert_eq!(after.shot.camera.momentum.x.to_bits(), before.shot.camera.momentum.x.to_bits());
         assert_eq!(after.to_text(), text);
     }
 
@@ -356,7 +384,7 @@ mod tests {
             assert!(good.contains(from), "{from}");
             good.replacen(from, to, 1)
         };
-        let camera = snapshot().camera;
+        let camera = snapshot().shot.camera;
         let [x, turn, fov] = [camera.position.x, camera.attitude.x, camera.field_of_view].map(|x| toml::Value::Float(x).to_string());
         let wrong = [
             (String::new(), "damaged"),

@@ -24,7 +24,6 @@ use lensrunner::scene::config::edit::edited;
 use lensrunner::scene::config::{self, Value};
 use lensrunner::sim::Clock;
 use lensrunner::sim::replay::Playback;
-use lensrunner::sim::restored::Restored;
 use lensrunner::sim::run::state_hash;
 use lensrunner::sim::snapshot::Snapshot;
 
@@ -246,8 +245,8 @@ fn a_moment_is_saved_and_drawn_again() {
     assert!(is_moment(&file) && file.starts_with(&folder.0));
     let snapshot = Snapshot::from_text(&file, &read_moment(&file).unwrap()).unwrap();
     assert!(!snapshot.config().render.doppler && snapshot.flight.ticks == before.tick + 8);
-    let restored = Restored::of(&file, &snapshot).unwrap();
-    let picture = shot_again(&restored, [96, 64], false, true).unwrap();
+    let moment = snapshot.fly(&file).unwrap();
+    let picture = shot_again(&snapshot, &moment, [96, 64], false, true).unwrap();
     assert!(picture.display.iter().filter(|byte| **byte > 40).count() > 200, "something is seen");
     // The same by the command, from the place of a scene.
     let png = folder.0.join("again.png");

@@ -242,3 +242,47 @@ fn with_the_back_to_the_disk_stars_are_exposed_as_without_one() {
     // Stars that the exposure before could not show are not metered, which is next to nothing.
     assert!((away / alone - 1.0).abs() < 0.01, "{away} with the back to a disk, {alone} without one");
 }
+
+/// A prop with a temperature, seen at g = 1.29 from nearer to the hole: a pixel is what the judge makes of Planck's law at gT, and as at rest
+/// what of the shift is switched off.
+#[test]
+fn a_hot_prop_glows_as_the_judge_says() {
+    use lensrunner::judge::case::Case;
+    use lensrunner::judge::picture::Quality;
+    const SCENE: &str = "[camera]\nposition = [2.0, 0.0, 0.0]\nlook = [1.0, 0.0, 0.0]\n\
+        [[prop]]\nmodel = \"icosphere\"\nposition = [6.0, 0.0, 0.0]\nsize = 2.0\n";
+    let size = [33, 17];
+    let middle = 8 * 33 + 16;
+    let mut renderer = renderer(size);
+    let mut light = |surface: &str, [doppler, beaming]: [bool; 2]| {
+        let scene = scene::Scene::from_toml("hot.toml".as_ref(), &format!("{SCENE}{surface}")).unwrap();
+        let mut config = GameConfig::default();
+        (config.render.doppler, config.render.beaming) = (doppler, beaming);
+        let stage = lensrunner::render::stage::Stage::new(&mut renderer, &scene, &config);
+        let frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &Settings { doppler, beaming, ..settings() });
+        let drawn = renderer.picture(&frame, true).unwrap();
+        assert_eq!(drawn.layers[middle][0], 1.0, "the prop is not in the middle of the picture");
+        let quality = Quality { samples: 1, tolerance: 1e-10, packet: 8 };
+        let judged = Case::new(scene, config, 0.0, size).trace(&quality, false, &|_| ());
+        let [red, green, blue, _] = drawn.linear[middle];
+        ([red, green, blue], judged.light[middle])
+    };
+    for temperature in [2000.0, 4000.0, 12_000.0] {
+        for shifts in [[true, true], [false, false], [true, false], [false, true]] {
+            // Black gives off its heat alone; what is lit gives off that besides.
+            for colour in ["[0.0, 0.0, 0.0]", "[0.6, 0.3, 0.2]"] {
+                let (drawn, judged) = light(&format!("temperature = {temperature}\ncolour = {colour}\n"), shifts);
+                println!("{temperature} K, {shifts:?}, colour {colour}: {drawn:?}, judged {judged:?}");
+                // Halves, and a table of black bodies that is right to half a per cent of their luminance.
+                let allowed = 0.01 * judged.iter().copied().fold(0.0, f32::max);
+                assert!(judged[0] > 1e-3 && drawn.iter().zip(judged).all(|(a, b)| (a - b).abs() <= allowed), "{drawn:?} {judged:?}");
+            }
+        }
+    }
+    // A black body of the Sun's temperature that is not shifted has the luminance that the disk's gas of that temperature has.
+    let (sun, _) = light("temperature = 5772.0\ncolour = [0.0, 0.0, 0.0]\n", [false, false]);
+    let luminance = lensrunner::scene::blackbody::luminance(sun.map(f64::from));
+    assert!((luminance / lensrunner::scene::disk::DISK_UNIT - 1.0).abs() < 0.01, "{luminance}");
+    let (cold, _) = light("colour = [0.0, 0.0, 0.0]\n", [true, true]);
+    assert_eq!(cold, [0.0; 3]);
+}

@@ -3,7 +3,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::shade::Shift;
+use super::shade::{Shift, black_body_seen};
 use crate::scene::blackbody;
 use crate::scene::disk::{DISK_UNIT, Gas};
 use crate::spacetime::matter::gamma;
@@ -51,18 +51,7 @@ impl Disk {
         let g = blue / (gamma(momentum) * k.length() - momentum.dot(k));
         let emission = self.gas.emission(r, position.y.atan2(position.x), time - crossing.delay);
         let opacity = emission.opacity(Gas::cosine(momentum, k), crossing.delay);
-        (self.colour(emission.temperature, g, shift) * (DISK_UNIT * opacity) as f32, opacity as f32)
-    }
-
-    fn colour(&self, temperature: f64, g: f64, shift: Shift) -> Vec3 {
         let black_body = |t: f64| Vec3::from(blackbody::lookup(&self.colours, COLDEST, HOTTEST, t as f32));
-        let luminance = |rgb: Vec3| rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722)).max(1e-30);
-        let (rest, shifted) = (black_body(temperature), black_body(temperature * g));
-        match (shift.doppler, shift.beaming) {
-            (true, true) => shifted,
-            (false, false) => rest,
-            (true, false) => shifted * (luminance(rest) / luminance(shifted)),
-            (false, true) => rest * (luminance(shifted) / luminance(rest)),
-        }
+        (black_body_seen(black_body, emission.temperature, g, shift) * (DISK_UNIT * opacity) as f32, opacity as f32)
     }
 }

@@ -6,6 +6,8 @@ use super::texture::Pyramid;
 use super::world::worldline::Motion;
 use super::world::{Thing, World};
 use crate::judge::trace::Hit;
+use crate::scene::blackbody::blackbody_rgb;
+use crate::scene::disk::DISK_UNIT;
 use crate::scene::lighting::Illumination;
 use crate::scene::model::Material;
 use crate::spacetime::matter::gamma;
@@ -95,7 +97,26 @@ pub fn shaded(surface: &Surface, thing: &Thing, material: &Material, texel: Opti
     let reflected = irradiance(&thing.light, mirrored.lerp(n, roughness * roughness).normalize_or(n));
     colour += (fresnel + (Vec3::ONE - fresnel) * rim * (1.0 - roughness)) * reflected * gloss(&thing.light, mirrored, roughness);
     // As the game's renderer, which draws no redder and no bluer light.
-    shifted_colour(colour, surface.g.clamp(1e-3, 1e3) as f32, shift).min(Vec3::splat(BRIGHTEST))
+    let g = surface.g.clamp(1e-3, 1e3);
+    let mut shifted = shifted_colour(colour, g as f32, shift);
+    if material.temperature > 0.0 {
+        let black_body = |t: f64| Vec3::from(blackbody_rgb(t).map(|channel| channel as f32));
+        shifted += black_body_seen(black_body, f64::from(material.temperature), g, shift) * DISK_UNIT as f32;
+    }
+    shifted.min(Vec3::splat(BRIGHTEST))
+}
+
+/// Light of a black body of `temperature` (K) seen at frequency ratio g: by Planck's law and Liouville's theorem that of one at gT, each of
+/// which `black_body` knows. Where light does not change its colour, or its strength, that is as at rest.
+pub fn black_body_seen(black_body: impl Fn(f64) -> Vec3, temperature: f64, g: f64, shift: Shift) -> Vec3 {
+    let luminance = |rgb: Vec3| rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722)).max(1e-30);
+    let (rest, shifted) = (black_body(temperature), black_body(temperature * g));
+    match (shift.doppler, shift.beaming) {
+        (true, true) => shifted,
+        (false, false) => rest,
+        (true, false) => shifted * (luminance(rest) / luminance(shifted)),
+        (false, true) => rest * (luminance(shifted) / luminance(rest)),
+    }
 }
 
 /// The level of detail at which a texture is read, from the change of (u, v) from one sample to the next, across and down.

@@ -23,7 +23,7 @@ use crate::render::{Gpu, Renderer};
 use crate::scene::crew::Crew;
 use crate::sim::bolts::Bolts;
 use crate::sim::replay::Replay;
-use crate::sim::snapshot::{Snapshot, View, step_after};
+use crate::sim::snapshot::{FrameCamera, Snapshot, step_after};
 use crate::sim::{Clock, Fleet, History, outcome};
 use crate::sim::{app_of, board};
 use crate::user_file::write_whole;
@@ -165,9 +165,9 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Resul
         passes = renderer.timing().latest().to_vec();
         // From the second frame on the eye adapts, by the time that passes for a player.
         settings.adaptation = (1.0 - (-session.config.render.exposure_speed * seconds).exp2()) as f32;
-        let (ticks, lit) = (step_after(time, step) as u64, settings.own_ship);
-        let seen = View { time, ticks, camera, size: flight.size, hidden, lit };
-        let snapshot = Snapshot::new(&shown, &session.scene, &session.config, world.world(), &seen);
+        let shot = FrameCamera { camera, hidden, lit: settings.own_ship };
+        let flown = shown.up_to(step_after(time, step) as u64, world.world());
+        let snapshot = Snapshot::new(flown, &session.scene, &session.config, world.world(), time, shot, flight.size);
         if !writer.send(index, pixels, snapshot) {
             break;
         }

@@ -1,13 +1,10 @@
 //! What a player can do with a button: the actions that `[controls]` of `game.toml` binds.
 
-use bevy::prelude::*;
-use leafwing_input_manager::Actionlike;
-
 /// One entry for each key of `[controls]` that names a button.
 macro_rules! actions {
     ($($(#[$doc:meta])* $name:ident = $key:literal,)*) => {
         /// What a button does.
-        #[derive(Actionlike, Clone, Copy, Debug, PartialEq, Eq, Hash, Reflect)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Action {
             $($(#[$doc])* $name,)*
         }

@@ -1,7 +1,6 @@
 //! Which buttons do what, and how they are changed.
 
 use bevy::prelude::*;
-use leafwing_input_manager::prelude::InputMap;
 
 use crate::play::input::action::Action;
 use crate::play::input::button::{Button, Device};
@@ -95,35 +94,7 @@ impl Bindings {
         let buttons = self.buttons(action);
         buttons.iter().find(|button| button.device() == device).or(buttons.first()).copied()
     }
-
-    /// What the input manager presses actions by.
-    pub fn map(&self) -> InputMap<Action> {
-        let mut map = InputMap::default();
-        for action in Action::ALL {
-            for button in self.buttons(action) {
-                match *button {
-                    Button::Key(key) => _ = map.insert(action, key),
-                    Button::Mouse(button) => _ = map.insert(action, button),
-                    #[cfg(feature = "pad")]
-                    Button::Pad(button) => _ = map.insert(action, button),
-                    #[cfg(feature = "pad")]
-                    Button::Stick(axis, sign) => {
-                        use leafwing_input_manager::prelude::GamepadControlDirection as Way;
-                        let way = if sign > 0.0 { Way::positive(axis) } else { Way::negative(axis) };
-                        map.insert(action, way.threshold(STICK_PRESSED));
-                    }
-                    #[cfg(not(feature = "pad"))]
-                    Button::Pad(_) | Button::Stick(..) => (),
-                }
-            }
-        }
-        map
-    }
 }
-
-/// A stick counts as pressed from this share of its way on.
-#[cfg(feature = "pad")]
-const STICK_PRESSED: f32 = 0.5;
 
 #[cfg(test)]
 mod tests {

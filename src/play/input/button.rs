@@ -49,7 +49,7 @@ const PAD_BUTTONS: [GamepadButton; 16] = [
 ];
 
 /// The sticks' ways, in the order of [`STICKS`].
-const STICK_WAYS: [(GamepadAxis, f32); 8] = [
+pub(super) const STICK_WAYS: [(GamepadAxis, f32); 8] = [
     (GamepadAxis::LeftStickY, 1.0),
     (GamepadAxis::LeftStickY, -1.0),
     (GamepadAxis::LeftStickX, -1.0),

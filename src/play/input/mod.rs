@@ -9,16 +9,15 @@ pub mod mouse;
 pub mod response;
 
 use bevy::ecs::system::SystemParam;
+use bevy::input::InputSystems;
 use bevy::input::gamepad::{Gamepad, GamepadAxis, GamepadButton};
 use bevy::input::mouse::AccumulatedMouseMotion;
 use bevy::prelude::*;
 use glam::{DVec2, DVec3};
-use leafwing_input_manager::plugin::InputManagerSystem;
-use leafwing_input_manager::prelude::{ActionState, InputManagerPlugin, InputMap};
 
 use crate::play::input::action::Action;
 use crate::play::input::bindings::Bindings;
-use crate::play::input::button::{Button, Device};
+use crate::play::input::button::{Button, Device, STICK_WAYS};
 use crate::play::input::mouse::MouseTurn;
 use crate::play::input::response::Response;
 use crate::sim::assist::Stick;
@@ -31,22 +30,33 @@ pub struct ControlsPlugin;
 
 impl Plugin for ControlsPlugin {
     fn build(&self, app: &mut App) {
-        // The one player.
-        app.world_mut().spawn((ActionState::<Action>::default(), InputMap::<Action>::default()));
-        app.add_plugins(InputManagerPlugin::<Action>::default())
-            .init_resource::<Bindings>()
+        app.init_resource::<Bindings>()
+            .init_resource::<ButtonInput<StickWay>>()
             .init_resource::<Taps>()
             .init_resource::<NextTaps>()
             .init_resource::<Device>()
             .init_resource::<MouseTurn>()
             .init_resource::<AccumulatedMouseMotion>()
-            .add_systems(
-                PreUpdate,
-                (
-                    map_buttons.before(InputManagerSystem::Update),
-                    ((note_taps, take_taps).chain(), note_device).after(InputManagerSystem::Update),
-                ),
-            );
+            .add_systems(PreUpdate, ((note_sticks, note_taps, take_taps).chain(), note_device).after(InputSystems));
+    }
+}
+
+/// A way of a stick: its axis, and whether along it.
+type StickWay = (GamepadAxis, bool);
+
+/// A stick counts as pressed from this share of its way on.
+const STICK_PRESSED: f32 = 0.5;
+
+/// Sticks as buttons, one for each way.
+fn note_sticks(pads: Query<&Gamepad>, mut sticks: ResMut<ButtonInput<StickWay>>) {
+    sticks.clear();
+    for (axis, sign) in STICK_WAYS {
+        let way = (axis, sign > 0.0);
+        if pads.iter().any(|pad| pad.get(axis).unwrap_or(0.0) * sign > STICK_PRESSED) {
+            sticks.press(way);
+        } else {
+            sticks.release(way);
+        }
     }
 }
 
@@ -57,12 +67,6 @@ pub struct Taps([bool; Action::ALL.len()]);
 /// What is switched on from this frame on.
 #[derive(Resource, Clone, Copy, Debug, Default)]
 struct NextTaps(Taps);
-
-fn map_buttons(bindings: Res<Bindings>, mut maps: Query<&mut InputMap<Action>>) {
-    if bindings.is_changed() {
-        maps.iter_mut().for_each(|mut map| *map = bindings.map());
-    }
-}
 
 fn note_taps(input: PlayerInput, mut taps: ResMut<NextTaps>) {
     for action in Action::ALL {
@@ -103,34 +107,40 @@ fn note_device(
 pub struct PlayerInput<'w, 's> {
     /// Which does what.
     pub bindings: Res<'w, Bindings>,
-    /// What is pressed.
-    actions: Query<'w, 's, &'static ActionState<Action>>,
     taps: Res<'w, Taps>,
     /// The keyboard.
     pub keys: Res<'w, ButtonInput<KeyCode>>,
     mouse: Res<'w, ButtonInput<MouseButton>>,
     pads: Query<'w, 's, &'static Gamepad>,
+    sticks: Res<'w, ButtonInput<StickWay>>,
 }
 
 impl PlayerInput<'_, '_> {
     /// Whether the button for `action` is held, or a tap has switched it on.
     pub fn holds(&self, action: Action) -> bool {
         if self.bindings.is_tapped(action) {
-            self.taps.0[action as usize]
-        } else {
-            self.actions.iter().any(|actions| actions.pressed(&action))
+            return self.taps.0[action as usize];
+        }
+        self.bindings.buttons(action).iter().any(|button| self.is_down(*button))
+    }
+
+    fn is_down(&self, button: Button) -> bool {
+        match button {
+            Button::Key(key) => self.keys.pressed(key),
+            Button::Mouse(button) => self.mouse.pressed(button),
+            Button::Pad(button) => self.pads.iter().any(|pad| pad.pressed(button)),
+            Button::Stick(axis, sign) => self.sticks.pressed((axis, sign > 0.0)),
         }
     }
 
     /// Whether it went down in this frame. A short press may begin and end within one, which leaves nothing that is held.
     pub fn pushed(&self, action: Action) -> bool {
-        let shortly = self.bindings.buttons(action).iter().any(|button| match *button {
+        self.bindings.buttons(action).iter().any(|button| match *button {
             Button::Key(key) => self.keys.just_pressed(key),
             Button::Mouse(button) => self.mouse.just_pressed(button),
             Button::Pad(button) => self.pads.iter().any(|pad| pad.just_pressed(button)),
-            Button::Stick(..) => false,
-        });
-        shortly || self.actions.iter().any(|actions| actions.just_pressed(&action))
+            Button::Stick(axis, sign) => self.sticks.just_pressed((axis, sign > 0.0)),
+        })
     }
 
     /// Whether a key, or a button that is pressed or not, asks for `action`.
@@ -138,12 +148,7 @@ impl PlayerInput<'_, '_> {
         if self.bindings.is_tapped(action) {
             return self.taps.0[action as usize];
         }
-        self.bindings.buttons(action).iter().any(|button| match *button {
-            Button::Key(key) => self.keys.pressed(key),
-            Button::Mouse(button) => self.mouse.pressed(button),
-            Button::Pad(button) => !is_trigger(button) && self.pads.iter().any(|pad| pad.pressed(button)),
-            Button::Stick(..) => false,
-        })
+        self.bindings.buttons(action).iter().any(|button| !is_gradual(*button) && self.is_down(*button))
     }
 
     /// How far sticks and triggers ask for `action`, 0 to 1, and whether a stick does.
@@ -194,7 +199,15 @@ impl PlayerInput<'_, '_> {
     }
 }
 
-/// Whether a button of the gamepad is pressed more or less.
+/// Whether a button is pressed more or less.
+fn is_gradual(button: Button) -> bool {
+    match button {
+        Button::Pad(button) => is_trigger(button),
+        Button::Stick(..) => true,
+        Button::Key(_) | Button::Mouse(_) => false,
+    }
+}
+
 fn is_trigger(button: GamepadButton) -> bool {
     matches!(button, GamepadButton::LeftTrigger2 | GamepadButton::RightTrigger2)
 }
@@ -276,7 +289,6 @@ pub(in crate::play) mod tests {
         assert_eq!(ask(&mut app, |hands| hands.stick()).thrust.z, -CRUISE);
     }
 
-    #[cfg(feature = "pad")]
     #[test]
     fn the_pad_thrusts_and_turns_as_far_as_it_is_pushed() {
         let mut app = devices(&GameConfig::default());
@@ -301,7 +313,21 @@ pub(in crate::play) mod tests {
         assert!(ask(&mut app, |hands| hands.holds(Action::Fire) && !hands.pushed(Action::Fire)));
     }
 
-    #[cfg(feature = "pad")]
+    /// A stick that is bound to what a button does is pushed once from half of its way on, and held until it comes back.
+    #[test]
+    fn a_stick_is_a_button_from_half_of_its_way_on() {
+        let mut config = GameConfig::default();
+        config.controls.toggle_hud = "PadRightStickUp".into();
+        let mut app = devices(&config);
+        let pad = plug_pad(&mut app);
+        let states = [0.4, 0.6, 0.9, 0.2, -1.0].map(|value| {
+            push_stick(&mut app, pad, GamepadAxis::RightStickY, value);
+            app.update();
+            ask(&mut app, |hands| [hands.pushed(Action::ToggleHud), hands.holds(Action::ToggleHud)])
+        });
+        assert_eq!(states, [[false, false], [true, true], [false, true], [false, false], [false, false]]);
+    }
+
     #[test]
     fn inversion_and_strength_are_the_sticks_own() {
         let mut config = GameConfig::default();

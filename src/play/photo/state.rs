@@ -4,8 +4,8 @@ use bevy::prelude::*;
 
 use crate::play::menus::entries::PhotoKnob;
 use crate::play::photo::camera::{FreeCamera, Motion};
-use crate::play::picture::sight::FrameCamera;
 use crate::scene::GameConfig;
+use crate::sim::snapshot::FrameCamera;
 
 /// Sizes of saved pictures, in pixels; the largest has 16 million. None is that of the window.
 pub(super) const SIZES: [Option<[u32; 2]>; 5] = [None, Some([1280, 720]), Some([1920, 1080]), Some([3840, 2160]), Some([5312, 2988])];

@@ -25,7 +25,7 @@ use crate::scene::mission::GoalTask;
 use crate::sim::replay::Playback;
 use now::Now;
 use quality::Quality;
-use sight::{FrameCamera, ScreenContent, is_cut};
+use sight::{ScreenContent, is_cut};
 use staging::{Staged, StagingPlugin};
 
 /// Loads the scene, and makes a frame of it each time. Needs [`RelativisticRenderPlugin`](crate::render::plugin::RelativisticRenderPlugin)

@@ -5,8 +5,8 @@ use glam::{DQuat, DVec3};
 use crate::play::camera::director::{on_caught, wide};
 use crate::play::camera::{CameraView, on_ship};
 use crate::play::menus::screens::Screen;
+use crate::sim::snapshot::FrameCamera;
 use crate::sim::{History, Outcome};
-use crate::spacetime::Observer;
 use crate::spacetime::matter::ShipState;
 
 /// What the screen shows, whatever the player looked at before.
@@ -33,17 +33,6 @@ impl ScreenContent {
             _ => ScreenContent::Own,
         }
     }
-}
-
-/// The camera of a frame, and what it does to the ships.
-#[derive(Clone, Copy, Debug)]
-pub struct FrameCamera {
-    /// Who looks.
-    pub camera: Observer,
-    /// The ship that is not drawn: the cockpit's own.
-    pub hidden: Option<usize>,
-    /// The ship that is lit so that it is seen.
-    pub lit: Option<usize>,
 }
 
 /// A ship to look at: its index in the scene, its worldline, its length (r_s).

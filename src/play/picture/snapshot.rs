@@ -10,7 +10,7 @@ use crate::play::session::Session;
 use crate::sim::Clock;
 use crate::sim::replay::{Playback, Replay, ReplayLog};
 use crate::sim::run::state_hash;
-use crate::sim::snapshot::{Snapshot, View};
+use crate::sim::snapshot::Snapshot;
 
 /// The moment of this frame, once its camera is chosen; an error, in words, where it cannot be made again.
 pub fn snapshot(world: &mut World) -> Result<Snapshot, &'static str> {
@@ -23,10 +23,9 @@ pub fn snapshot(world: &mut World) -> Result<Snapshot, &'static str> {
     };
     let flight = flight(world).ok_or("a setting that the flight depends on was changed in flight")?;
     let time = world.get_resource::<Time<Fixed>>().map_or(clock.time, |fixed| now::time(clock, fixed));
-    let view = View { time, ticks: clock.tick, camera: shot.camera, size, hidden: shot.hidden, lit: shot.lit };
     let config = session.config.clone();
     let config = world.get_resource::<Photo>().map_or_else(|| config.clone(), |photo| photo.config(&config));
-    Ok(Snapshot::new(flight, &session.scene, &config, world, &view))
+    Ok(Snapshot::new(flight.up_to(clock.tick, world), &session.scene, &config, world, time, shot, size))
 }
 
 /// The flight that is shown, from its beginning.
@@ -55,9 +54,8 @@ mod tests {
     use crate::play::input::tests::press_key;
     use crate::play::menus::screens::Screen;
     use crate::play::overlay::live::LivePlugin;
-    use crate::play::picture::sight::FrameCamera;
     use crate::play::player_state::PlayerState;
-    use crate::sim::restored::Restored;
+    use crate::sim::snapshot::FrameCamera;
     use crate::sim::{Fleet, History, SimulationPlugins};
     use bevy::input::{ButtonState, InputPlugin};
     use bevy::state::app::StatesPlugin;
@@ -85,7 +83,7 @@ mod tests {
         let read = Snapshot::from_text(path, &taken.to_text()).expect("a text that can be read");
         assert_eq!(read, taken);
         // Says so if it comes elsewhere.
-        let again = Restored::of(path, &read).expect("it is made again");
+        let again = read.fly(path).expect("it is made again");
         let world = app.world();
         for (index, &ship) in world.resource::<Fleet>().0.iter().enumerate() {
             let there = world.get::<History>(ship).expect("a ship's worldline");

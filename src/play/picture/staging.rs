@@ -9,13 +9,13 @@ use bevy::prelude::*;
 use crate::play::camera::{CameraView, state_of};
 use crate::play::loading::Loading;
 use crate::play::picture::now::Now;
-use crate::play::picture::sight::FrameCamera;
 use crate::play::session::Session;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::types::placed::THIN;
 use crate::render::plugin::{FrameToDraw, LensingTable, SceneReady, SceneToDraw};
 use crate::render::renderer::SceneUpload;
 use crate::render::stage::{Stage, settings};
+use crate::sim::snapshot::FrameCamera;
 
 /// The scene, ready for frames.
 #[derive(Resource, Debug)]

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 
 use crate::lensing::Slice;
 use crate::lensing::lookup::lens_lookup_at;
-use crate::render::disk::Disk;
+use crate::render::disk::drawn::Disk;
 use crate::scene::disk::radial::LAST_ORBIT;
 use crate::scene::disk::{LEAST_COSINE, PATTERN_HEIGHT};
 

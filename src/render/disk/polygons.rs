@@ -20,7 +20,7 @@ use crate::render::method::Method;
 use crate::render::models::{ModelRange, ModelSet, Models};
 use crate::scene::disk::polygons::{Ring, model, rings};
 
-use crate::render::disk::Disk;
+use crate::render::disk::drawn::Disk;
 
 /// Two-sided triangles, with the frequency ratio of static observers; the gas's own motion comes in with its colour.
 const HELD_TWO_SIDED: u32 = HELD | TWO_SIDED;

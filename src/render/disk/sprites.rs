@@ -9,7 +9,7 @@ use crate::render::gpu::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute
 use crate::render::gpu::shaders::Pass;
 use crate::scene::disk::sprites::Sprites;
 
-use crate::render::disk::Disk;
+use crate::render::disk::drawn::Disk;
 use crate::render::disk::types::SEEN_SPRITE_BYTES;
 use crate::render::disk::view::DiskView;
 

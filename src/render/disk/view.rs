@@ -10,8 +10,8 @@ use crate::render::frame::FrameInput;
 use crate::scene::disk::radial::smoothstep;
 use crate::scene::disk::{DISK_UNIT, OFFSET_STEP, PATTERN_HEIGHT, RENEWAL, SHEARED};
 
-use crate::render::disk::Disk;
 use crate::render::disk::circles::{AZIMUTHS, Circles, FROM_FAR, FROM_NEAR, Look, RingBend, SeenCircle, azimuth, pixel_angle, radii};
+use crate::render::disk::drawn::Disk;
 use crate::render::disk::sigma::sigma;
 use crate::render::disk::types::{Circle, DiskFrame};
 

@@ -13,7 +13,7 @@ use toml::de::{DeString, DeTable, DeValue};
 
 use super::document::error::{Complaints, ConfigError};
 use super::document::fault::Fault;
-use super::document::{MOST_SAID, complain_all, document, one};
+use super::document::{Document, MOST_SAID, one};
 use crate::game_files;
 use crate::user_file::{MOST_TEXT, read_text};
 pub use assignment::Assignment;
@@ -22,7 +22,6 @@ pub use fields::{
     ShipConfig, Sky, Sound, Video, setting, settings,
 };
 pub use setting::{Allowed, Setting, Value};
-pub(super) use setting::{plain, range_text};
 
 /// The configuration's file where none is named.
 pub const FILE: &str = "game.toml";
@@ -67,11 +66,11 @@ pub fn load(path: &Path) -> Result<GameConfig, ConfigError> {
 
 /// Reads the text of a `game.toml`; `file` is only named in the complaints.
 pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaints> {
-    let document = document(file, text).map_err(one)?;
+    let document = Document::parse(file, text).map_err(one)?;
     let mut config = GameConfig::default();
     let known = section_names();
     let mut faults = Vec::new();
-    for (section, table) in document.get_ref() {
+    for (section, table) in document.table() {
         let name = section.get_ref().as_ref();
         let wrong = match table.get_ref() {
             DeValue::Table(table) if known.contains(&name) => {
@@ -85,7 +84,7 @@ pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaints> {
         };
         faults.push(Fault { span: section.span(), message: wrong });
     }
-    check_all(&config, faults, document.get_ref()).map_err(|faults| complain_all(file, text, faults))?;
+    check_all(&config, faults, document.table()).map_err(|faults| document.complain(faults))?;
     Ok(config)
 }
 
@@ -143,10 +142,10 @@ pub fn choices(
     text: &str,
     may: impl Fn(&Setting<GameConfig>) -> bool,
 ) -> Result<Vec<(&'static Setting<GameConfig>, Value)>, Complaints> {
-    let document = document(file, text).map_err(one)?;
+    let document = Document::parse(file, text).map_err(one)?;
     let mut config = GameConfig::default();
     let (mut chosen, mut faults) = (Vec::new(), Vec::new());
-    for (section, table) in document.get_ref() {
+    for (section, table) in document.table() {
         let DeValue::Table(table) = table.get_ref() else {
             faults.push(Fault { span: section.span(), message: "must be a section".into() });
             continue;
@@ -159,7 +158,7 @@ pub fn choices(
             }
         }
     }
-    if faults.is_empty() { Ok(chosen) } else { Err(complain_all(file, text, faults)) }
+    if faults.is_empty() { Ok(chosen) } else { Err(document.complain(faults)) }
 }
 
 /// The text of such a file.

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::buttons::are_buttons;
+use crate::scene::document::fault::{plain, range_text};
 use crate::user_file::short;
 
 /// A value of one setting.
@@ -128,20 +129,6 @@ impl<C> Setting<C> {
             Allowed::Words(words) => format!("some of {}, or None", words.join(" ")),
         }
     }
-}
-
-/// `0.1 to 20 r_s/c`.
-pub(in crate::scene) fn range_text(min: f64, max: f64, unit: &str) -> String {
-    let space = if unit.is_empty() { "" } else { " " };
-    if max >= f64::MAX {
-        return format!("{} or more{space}{unit}", plain(min));
-    }
-    format!("{} to {}{space}{unit}", plain(min), plain(max))
-}
-
-/// Long numbers with an exponent, others without.
-pub(in crate::scene) fn plain(number: f64) -> String {
-    if number != 0.0 && !(1e-4..1e10).contains(&number.abs()) { format!("{number:e}") } else { number.to_string() }
 }
 
 impl fmt::Display for Value {

@@ -31,8 +31,8 @@ pub const RENEWAL: f64 = 40.0;
 pub const SHEARED: f64 = 20.0;
 /// The height of the pattern in ln r: it repeats after a factor of 16 in radius, more than a disk shows at once in detail.
 pub const PATTERN_HEIGHT: f64 = 2.772_588_722_239_781;
-/// Light of a black body at 5,772 K in the scene's unit of radiance (a white surface in full light). With it a disk of less than 3,000 K is
-/// a few times as bright as a lit ship, and stars are visible beside it.
+/// Light of a black body at 5,772 K in the scene's unit of radiance (a white surface in full light), whether it is gas of the disk or a
+/// surface. With it a disk of less than 3,000 K is a few times as bright as a lit ship, and stars are visible beside it.
 pub const DISK_UNIT: f64 = 24.0;
 /// Finest octaves, for near views: the pattern again, this many times finer, this strong. By hand.
 pub const DETAIL: (f64, f64) = (8.0, 0.35);

@@ -11,7 +11,7 @@ use std::path::Path;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeTable, DeValue, Deserializer};
 
 use crate::user_file::{brief, short};
 use error::{Complaint, Complaints};
@@ -46,14 +46,47 @@ where
 
 /// Parses `text`, which came from `file`, into a `T`. Unknown keys are errors if `T` denies them.
 pub fn parse<T: DeserializeOwned>(file: &Path, text: &str) -> Result<T, Complaint> {
-    shallow(file, text)?;
-    toml::from_str(text).map_err(|error| syntax(file, text, &error))
+    Document::parse(file, text)?.read()
 }
 
-/// The document in `text`, which came from `file`.
-pub fn document<'a>(file: &Path, text: &'a str) -> Result<Spanned<DeTable<'a>>, Complaint> {
-    shallow(file, text)?;
-    DeTable::parse(text).map_err(|error| syntax(file, text, &error))
+/// A TOML text, parsed once for all that is read from it and all that is said of it.
+pub struct Document<'a> {
+    file: &'a Path,
+    text: &'a str,
+    table: Spanned<DeTable<'a>>,
+}
+
+impl<'a> Document<'a> {
+    /// The document in `text`, which came from `file`.
+    pub fn parse(file: &'a Path, text: &'a str) -> Result<Self, Complaint> {
+        shallow(file, text)?;
+        // What is no TOML has no keys.
+        let table = DeTable::parse(text).map_err(|error| refused(file, text, None, &error))?;
+        Ok(Document { file, text, table })
+    }
+
+    /// Its entries.
+    pub fn table(&self) -> &DeTable<'a> {
+        self.table.get_ref()
+    }
+
+    /// The document as a `T`. Unknown keys are errors if `T` denies them.
+    pub fn read<T: DeserializeOwned>(&self) -> Result<T, Complaint> {
+        T::deserialize(Deserializer::from(self.table.clone())).map_err(|error| refused(self.file, self.text, Some(self.table()), &error))
+    }
+
+    /// Adds file, line and key to every fault, in the order of their lines; of many the first ones, and how many more there are.
+    pub fn complain(&self, mut faults: Vec<Fault>) -> Complaints {
+        faults.sort_by_key(|fault| fault.span.start);
+        let more = faults.len().saturating_sub(MOST_SAID);
+        let one = |fault| complaint(self.file, self.text, Some(self.table()), fault);
+        let mut all: Vec<Complaint> = faults.into_iter().take(MOST_SAID).map(one).collect();
+        if more > 0 {
+            let problem = format!("and {more} more are wrong");
+            all.push(Complaint { file: self.file.to_path_buf(), line: None, key: String::new(), problem });
+        }
+        Complaints(all)
+    }
 }
 
 /// Refuses text that is nested too deeply.
@@ -70,36 +103,22 @@ fn shallow(file: &Path, text: &str) -> Result<(), Complaint> {
 }
 
 /// Adds file, line and key to what the TOML reader has to say.
-pub fn syntax(file: &Path, text: &str, error: &toml::de::Error) -> Complaint {
+fn refused(file: &Path, text: &str, table: Option<&DeTable<'_>>, error: &toml::de::Error) -> Complaint {
     let message = brief(&in_words(&error.message().replace('\n', " ")));
     match error.span() {
-        // What is no TOML has no keys.
-        Some(span) => complain(file, text, DeTable::parse(text).ok().as_ref().map(Spanned::get_ref), Fault { span, message }),
+        Some(span) => complaint(file, text, table, Fault { span, message }),
         None => Complaint { file: file.to_path_buf(), line: None, key: String::new(), problem: message },
     }
 }
 
 /// Adds file, line and key to a fault.
-fn complain(file: &Path, text: &str, document: Option<&DeTable<'_>>, fault: Fault) -> Complaint {
+fn complaint(file: &Path, text: &str, table: Option<&DeTable<'_>>, fault: Fault) -> Complaint {
     Complaint {
         file: file.to_path_buf(),
         line: Some(line_of(text, fault.span.start)),
-        key: short(&document.map(|document| key_at(document, fault.span)).unwrap_or_default()),
+        key: short(&table.map(|table| key_at(table, fault.span)).unwrap_or_default()),
         problem: brief(&fault.message),
     }
-}
-
-/// As `complain`, of every fault, in the order of their lines; of many the first ones, and how many more there are.
-pub fn complain_all(file: &Path, text: &str, mut faults: Vec<Fault>) -> Complaints {
-    faults.sort_by_key(|fault| fault.span.start);
-    let more = faults.len().saturating_sub(MOST_SAID);
-    let document = DeTable::parse(text).ok();
-    let document = document.as_ref().map(Spanned::get_ref);
-    let mut all: Vec<Complaint> = faults.into_iter().take(MOST_SAID).map(|fault| complain(file, text, document, fault)).collect();
-    if more > 0 {
-        all.push(Complaint { file: file.to_path_buf(), line: None, key: String::new(), problem: format!("and {more} more are wrong") });
-    }
-    Complaints(all)
 }
 
 /// The only complaint.

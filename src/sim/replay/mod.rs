@@ -187,6 +187,18 @@ impl Replay {
         text + &format!("check = \"{check:08x}\"\n")
     }
 
+    /// The flight up to its step `ticks`, with the hash of its state there if `world` is that far.
+    pub fn up_to(&self, ticks: u64, world: &World) -> Replay {
+        let hash = world.get_resource::<Clock>().filter(|clock| clock.tick == ticks).map(|_| state_hash(world).to_string());
+        Replay {
+            records: self.records.iter().take_while(|record| record.tick < ticks).copied().collect(),
+            ticks,
+            outcome: "undecided".into(),
+            hash: hash.unwrap_or_default(),
+            ..self.clone()
+        }
+    }
+
     /// Reads the text of a replay; `path` is only named in complaints.
     pub fn from_text(path: &Path, text: &str) -> Result<Replay, ReplayError> {
         let damaged = |problem: String| ReplayError::Damaged { path: path.to_path_buf(), problem };

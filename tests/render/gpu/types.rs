@@ -25,6 +25,7 @@ use lensrunner::render::models::ALONE;
 use lensrunner::render::models::hiding::DIRECTIONS;
 use lensrunner::render::models::outside;
 use lensrunner::render::post_process::flashes;
+use lensrunner::scene::disk::DISK_UNIT;
 use wgpu::naga::{Expression, Literal, Module};
 
 use crate::layout::{Numbers, fields, fields_of, struct_of};
@@ -187,6 +188,7 @@ fn constants_have_one_value_in_both_languages() {
         ("post_process::tiles::TILE", whole(TILE)),
         ("gpu::colour::BLACKBODY_COLDEST", f64::from(BLACKBODY_COLDEST)),
         ("gpu::colour::BLACKBODY_HOTTEST", f64::from(BLACKBODY_HOTTEST)),
+        ("shading::shade::DISK_UNIT", DISK_UNIT),
         ("disk::arcs::place::THIN_SAMPLES", THIN_SAMPLES as f64),
         ("disk::arcs::place::THIN_AZIMUTHS", AZIMUTHS as f64),
         ("aurora::streaks::AURORA_LINEAR", whole(LINEAR)),
