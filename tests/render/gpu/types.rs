@@ -9,7 +9,7 @@ use lensrunner::render::aurora::{
     AuroraSettings, BOTH_POLES, Colours, DEPTH_TILES, LEAST_DEPTH_TILE, LINEAR, PYRAMID, RED_EVERY, SHIFTS, SMOOTH, Segment,
 };
 use lensrunner::render::disk::circles::AZIMUTHS;
-use lensrunner::render::disk::types::{self as disk, Circle, DiskCounters, DiskFrame, DiskVertex};
+use lensrunner::render::disk::types::{self as disk, Circle, DiskCounters, DiskFrame, DiskVertex, RadialGas, Sprite, SpriteImage, Turning};
 use lensrunner::render::disk::view::THIN_SAMPLES;
 use lensrunner::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST};
 use lensrunner::render::gpu::layout::TABLE_ROW;
@@ -33,6 +33,10 @@ impl Numbers for Cap {
     const FLOAT: bool = true;
 }
 
+impl Numbers for RadialGas {
+    const FLOAT: bool = true;
+}
+
 impl Numbers for Capacity {
     const FLOAT: bool = false;
 }
@@ -52,6 +56,8 @@ fn with_struct(path: &str) -> Module {
         "sky::cells::CellDraws" => Pass::SkyCells.module(),
         "geometry::arguments::Arguments" => Pass::Arguments.module(),
         "disk::arcs::arguments::DiskArguments" => Pass::DiskArguments.module(),
+        "disk::polygons::Turning" => Pass::DiskPolygons.module(),
+        "disk::sprites::Sprite" | "disk::sprites::SpriteImage" => Pass::DiskSprites.module(),
         _ => composed(&format!("var<workgroup> variable: lensrunner::{path};")),
     }
 }
@@ -105,8 +111,20 @@ fn structs_have_one_layout_in_both_languages() {
             contrast, filled, error_budget, least_width, columns, arcs, rows, rings, regions, vertex_room, near_orders, thickness,
             regions_end, unit, close, most_looks, unused, offset, offset_step),
         ),
-        ("disk::types::Circle", fields!(Circle: gas, motion, place, rows)),
-        ("disk::types::DiskVertex", fields!(DiskVertex: apparent, gas, more, bend)),
+        ("disk::types::RadialGas", fields!(RadialGas: radius, lead, ln_temperature, depth, outward, along, half_height, pattern_height)),
+        (
+            "disk::types::Circle",
+            fields!(Circle: gas, beyond, gap_radius, gap, gap_sides, order, first_row, last_row, first_sample, nearer_depth,
+            nearer_outward, nearer_along, nearer_radius),
+        ),
+        (
+            "disk::types::DiskVertex",
+            fields!(DiskVertex: apparent, path, turns, pattern_height, ln_temperature, depth, ln_g, cosine, filled, from_middle, half_width,
+            bend_height, bend_light, bend_depth, side),
+        ),
+        ("disk::polygons::Turning", fields!(Turning: rate, azimuth)),
+        ("disk::sprites::Sprite", fields!(Sprite: radius, sigma, step)),
+        ("disk::sprites::SpriteImage", fields!(SpriteImage: order, ring_width, count, end)),
         ("disk::types::Counters", fields!(DiskCounters: vertices, indices, arcs, coarse, caught, stage)),
         ("aurora::streaks::AuroraSettings", fields!(AuroraSettings: counts, history, clock, strokes, heights)),
         ("aurora::streaks::Segment", fields!(Segment: range, light)),
@@ -126,6 +144,8 @@ fn structs_that_only_shaders_know_have_the_sizes_that_rust_reserves() {
         ("geometry::arguments::Arguments", types::ARGUMENTS_BYTES),
         ("gpu::types::SkyCorner", types::SKY_CORNER_BYTES),
         ("disk::arcs::arguments::DiskArguments", disk::ARGUMENTS_BYTES),
+        ("disk::types::Segments", disk::SEGMENTS_BYTES),
+        ("disk::types::Job", disk::JOB_BYTES),
         ("disk::sprites_types::SeenSprite", disk::SEEN_SPRITE_BYTES),
     ];
     for (path, bytes) in cases {
