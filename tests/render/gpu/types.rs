@@ -17,7 +17,7 @@ use lensrunner::render::gpu::library::{Library, Values, Worldlines};
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::gpu::targets::TILE;
 use lensrunner::render::gpu::types::{
-    self, Cap, Capacity, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, SeenVertex, Star,
+    self, Adaptation, Cap, Capacity, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, SeenVertex, Star,
 };
 use lensrunner::render::gpu::types::{flags, placed};
 use lensrunner::render::method::Method;
@@ -73,6 +73,7 @@ fn structs_have_one_layout_in_both_languages() {
             exposure_known, unmetered_middle, unmetered_radius, exposure_key, disk_indices, exposure_key_without_disk, most_rise,
             rise_per_luminance, unused),
         ),
+        ("gpu::types::Adaptation", fields!(Adaptation: exposure, metered, known, steadied)),
         ("gpu::types::Capacity", fields!(Capacity: vertices, indices, work, thin)),
         (
             "gpu::types::Instance",
