@@ -10,15 +10,12 @@ const SHIFTS: u32 = 16u;
 struct Lines {
     /// Linear sRGB of a kilorayleigh of each line at each frequency ratio, the least first, in the unit of the picture's luminance.
     colours: array<vec3<f32>, 4u * SHIFTS>,
-    /// Steps from the least ratio: by the coordinates of the screen right and up (NDC),
+    /// By how many steps the ratio changes with the coordinates of the screen right and up (NDC).
     slope: vec2<f32>,
     /// Width and height of a lit tile in NDC.
     tile: vec2<f32>,
-    /// and in the middle of the screen.
+    /// Steps from the least ratio to that in the middle of the screen.
     middle: f32,
-    unused_a: f32,
-    unused_b: f32,
-    unused_c: f32,
 }
 
 @group(1) @binding(0) var<uniform> lines_seen: Lines;

@@ -6,7 +6,8 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 use lensrunner::render::aurora::ground::GroundLight;
 use lensrunner::render::aurora::rooms::{CORNERS, LIT_TILES};
 use lensrunner::render::aurora::{
-    AuroraSettings, BOTH_POLES, Colours, DEPTH_TILES, LEAST_DEPTH_TILE, LINEAR, PYRAMID, RED_EVERY, SHIFTS, SMOOTH, Segment,
+    AuroraSettings, BOTH_POLES, CHORD_END_BYTES, Colours, CurtainNode, DEPTH_TILES, LEAST_DEPTH_TILE, LINEAR, PYRAMID, RED_EVERY,
+    Reference, SHIFTS, SMOOTH, STROKE_BYTES, Segment,
 };
 use lensrunner::render::disk::circles::AZIMUTHS;
 use lensrunner::render::disk::types::{self as disk, Circle, DiskCounters, DiskFrame, DiskVertex, RadialGas, Sprite, SpriteImage, Turning};
@@ -127,9 +128,15 @@ fn structs_have_one_layout_in_both_languages() {
         ("disk::sprites::Sprite", fields!(Sprite: radius, sigma, step)),
         ("disk::sprites::SpriteImage", fields!(SpriteImage: order, ring_width, count, end)),
         ("disk::types::Counters", fields!(DiskCounters: vertices, indices, arcs, coarse, caught, stage)),
-        ("aurora::streaks::AuroraSettings", fields!(AuroraSettings: counts, history, clock, strokes, heights)),
-        ("aurora::streaks::Segment", fields!(Segment: range, light)),
-        ("aurora::levels::lit_corners::Lines", fields!(Colours: lines ["colours"], steps, tile)),
+        (
+            "aurora::streaks::AuroraSettings",
+            fields!(AuroraSettings: streaks, chords, parts, row_nodes, newest_row, segments, room, flags, row_seconds, ahead, clock, contrast,
+            point, levels, midnight, green_top, green_foot, red_top, red_foot),
+        ),
+        ("aurora::streaks::Segment", fields!(Segment: first_streak, streaks, first_node, span, collisions, width, length)),
+        ("aurora::streaks::CurtainNode", fields!(CurtainNode: place, flux, along)),
+        ("aurora::streaks::Reference", fields!(Reference: body, is_seen, apparent, left, east, north, up, arriving, by_across, by_along)),
+        ("aurora::levels::lit_corners::Lines", fields!(Colours: lines ["colours"], slope, tile, middle)),
     ];
     for (path, rust) in cases {
         assert_eq!(fields_of(&with_struct(path), path), rust, "{path}");
@@ -147,6 +154,8 @@ fn structs_that_only_shaders_know_have_the_sizes_that_rust_reserves() {
         ("disk::arcs::arguments::DiskArguments", disk::ARGUMENTS_BYTES),
         ("disk::types::Segments", disk::SEGMENTS_BYTES),
         ("disk::types::Job", disk::JOB_BYTES),
+        ("aurora::streaks::ChordEnd", CHORD_END_BYTES),
+        ("aurora::stroke::Stroke", STROKE_BYTES),
         ("disk::sprites_types::SeenSprite", disk::SEEN_SPRITE_BYTES),
     ];
     for (path, bytes) in cases {
