@@ -21,7 +21,7 @@ pub use animation::streaks::{RED_EVERY, SMOOTH};
 pub use animation::{AuroraAnimation, AuroraFrame, RAYS_PERIOD};
 pub use colours::Colours;
 pub use levels::{DEPTH_TILES, LEAST_DEPTH_TILE, PYRAMID};
-pub use pass::{Aurora, CHORD_END_BYTES, STROKE_BYTES};
+pub use pass::{Aurora, CHORD_END_BYTES, REFERENCE_BYTES, STROKE_BYTES};
 pub use shift::SHIFTS;
 
 use bytemuck::{Pod, Zeroable};
@@ -74,31 +74,6 @@ pub struct CurtainNode {
     pub place: [f32; 2],
     pub flux: f32,
     pub along: f32,
-}
-
-/// `Reference` in WGSL.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-#[repr(C)]
-#[allow(missing_docs, reason = "documented once, in shaders/aurora/streaks.wgsl")]
-pub struct Reference {
-    pub body: [f32; 3],
-    pub is_seen: u32,
-    pub apparent: [f32; 3],
-    pub unused_a: f32,
-    pub left: [f32; 3],
-    pub unused_b: f32,
-    pub east: [f32; 3],
-    pub unused_c: f32,
-    pub north: [f32; 3],
-    pub unused_d: f32,
-    pub up: [f32; 3],
-    pub unused_e: f32,
-    pub arriving: [f32; 3],
-    pub unused_f: f32,
-    pub by_across: [f32; 3],
-    pub unused_g: f32,
-    pub by_along: [f32; 3],
-    pub unused_h: f32,
 }
 
 /// The walk of Sekiguchi et al.; as in shaders/aurora/streaks.wgsl.

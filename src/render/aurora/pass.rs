@@ -11,7 +11,7 @@ use crate::render::aurora::levels::{Levels, PYRAMID, Ranges};
 use crate::render::aurora::node_history::{NodeHistory, ROWS};
 use crate::render::aurora::pipelines::{Layouts, Pipelines};
 use crate::render::aurora::rooms::{DRAWS_BYTES, LIT_TILES, Rooms};
-use crate::render::aurora::{AuroraSettings, BOTH_POLES, Reference, Segment};
+use crate::render::aurora::{AuroraSettings, BOTH_POLES, Segment};
 use crate::render::gpu::layout::{Growing, bind, buffer, compute_of};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::Targets;
@@ -24,6 +24,8 @@ use crate::scene::blackbody::xyz_to_rgb;
 const ORDERS: usize = 3;
 /// Bytes of `ChordEnd` in WGSL.
 pub const CHORD_END_BYTES: u64 = 48;
+/// Bytes of `Reference` in WGSL.
+pub const REFERENCE_BYTES: u64 = 144;
 /// Bytes of `Stroke` in WGSL.
 pub const STROKE_BYTES: u64 = 40;
 
@@ -151,7 +153,7 @@ impl Aurora {
         replaced |= self.strokes.reserve(device, STROKE_BYTES * rooms.all() * orders as u64);
         let poles = if settings.flags & BOTH_POLES != 0 { 2 } else { 1 };
         self.projected = settings.segments * poles * reference_room(chords);
-        replaced |= self.references.reserve(device, size_of::<Reference>() as u64 * u64::from(self.projected) * orders as u64);
+        replaced |= self.references.reserve(device, REFERENCE_BYTES * u64::from(self.projected) * orders as u64);
         if self.levels.as_ref().is_none_or(|levels| levels.size != targets.size) {
             self.levels = Some(Levels::new(gpu, targets.size));
             replaced = true;

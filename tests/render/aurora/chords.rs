@@ -5,7 +5,7 @@ use lensrunner::spacetime::Observer;
 use glam::{DVec2, DVec3};
 use lensrunner::lensing::Slice;
 use lensrunner::render::Renderer;
-use lensrunner::render::aurora::{AuroraAnimation, AuroraFrame, BOTH_POLES, Reference, planet_history};
+use lensrunner::render::aurora::{AuroraAnimation, AuroraFrame, BOTH_POLES, planet_history};
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback;
 use lensrunner::render::instances::View;
@@ -42,15 +42,15 @@ fn ends_of(renderer: &mut Renderer, camera: Observer, frame: &AuroraFrame, setti
     let input = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: Some(frame.clone()), settings: *settings };
     renderer.picture(&input, false).unwrap();
     let bytes = readback::buffer(&GPU, renderer.aurora().references()).unwrap();
-    let whole = bytes.len() / size_of::<Reference>() * size_of::<Reference>();
-    let rows: Vec<Reference> = bytemuck::pod_collect_to_vec(&bytes[..whole]);
+    // `Reference` of streaks.wgsl. A buffer that grew has room to spare.
+    let rows: Vec<[[f32; 4]; 9]> = bytemuck::pod_collect_to_vec(&bytes[..bytes.len() / 144 * 144]);
     let chords = frame.settings.chords as usize;
     let poles = if frame.settings.flags & BOTH_POLES != 0 { 2 } else { 1 };
     let count = frame.instances.len() * frame.segments.len() * poles;
-    let vector = |numbers: [f32; 3]| DVec3::from(numbers.map(f64::from));
-    let end = |row: &Reference| End { body: vector(row.body), seen: (row.is_seen > 0).then(|| vector(row.apparent)) };
+    let vector = |[x, y, z, _]: &[f32; 4]| DVec3::new(f64::from(*x), f64::from(*y), f64::from(*z));
+    let end = |[body, apparent, ..]: &[[f32; 4]; 9]| End { body: vector(body), seen: (body[3].to_bits() > 0).then(|| vector(apparent)) };
     // First the ends of green light, then those of red.
-    let of_part = |part: &[Reference]| [&part[..=chords], &part[chords + 1..]].map(|rows| rows.iter().map(end).collect::<Vec<End>>());
+    let of_part = |part: &[[[f32; 4]; 9]]| [&part[..=chords], &part[chords + 1..]].map(|rows| rows.iter().map(end).collect::<Vec<End>>());
     rows.chunks(3 * chords + 2).take(count).flat_map(of_part).collect()
 }
 

@@ -7,7 +7,7 @@ use lensrunner::render::aurora::ground::GroundLight;
 use lensrunner::render::aurora::rooms::{CORNERS, LIT_TILES};
 use lensrunner::render::aurora::{
     AuroraSettings, BOTH_POLES, CHORD_END_BYTES, Colours, CurtainNode, DEPTH_TILES, LEAST_DEPTH_TILE, LINEAR, PYRAMID, RED_EVERY,
-    Reference, SHIFTS, SMOOTH, STROKE_BYTES, Segment,
+    REFERENCE_BYTES, SHIFTS, SMOOTH, STROKE_BYTES, Segment,
 };
 use lensrunner::render::disk::circles::AZIMUTHS;
 use lensrunner::render::disk::types::{self as disk, Circle, DiskCounters, DiskFrame, DiskVertex, RadialGas, Sprite, SpriteImage, Turning};
@@ -135,7 +135,6 @@ fn structs_have_one_layout_in_both_languages() {
         ),
         ("aurora::streaks::Segment", fields!(Segment: first_streak, streaks, first_node, span, collisions, width, length)),
         ("aurora::streaks::CurtainNode", fields!(CurtainNode: place, flux, along)),
-        ("aurora::streaks::Reference", fields!(Reference: body, is_seen, apparent, left, east, north, up, arriving, by_across, by_along)),
         ("aurora::levels::lit_corners::Lines", fields!(Colours: lines ["colours"], slope, tile, middle)),
     ];
     for (path, rust) in cases {
@@ -155,6 +154,7 @@ fn structs_that_only_shaders_know_have_the_sizes_that_rust_reserves() {
         ("disk::types::Segments", disk::SEGMENTS_BYTES),
         ("disk::types::Job", disk::JOB_BYTES),
         ("aurora::streaks::ChordEnd", CHORD_END_BYTES),
+        ("aurora::streaks::Reference", REFERENCE_BYTES),
         ("aurora::stroke::Stroke", STROKE_BYTES),
         ("disk::sprites_types::SeenSprite", disk::SEEN_SPRITE_BYTES),
     ];
