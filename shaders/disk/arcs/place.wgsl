@@ -153,9 +153,10 @@ struct Before {
     own: f32,
 }
 
-/// That of light of the third image, `share` of which goes through gas of the second at all. Light of the third image crosses the second at one point, near the photon sphere; but a pixel shows the mean
-/// of the second's gas, and covers what is beside the image as well. The third image is so thin that all of it is `d` pixels from the
-/// middle of the second, which has the half width `half`, under a tent, and whose gas has the mean optical depth `depth`.
+/// Light of the third image crosses the second at one point, near the photon sphere; but a pixel shows the mean of the second's gas, and
+/// covers what is beside the image as well. The third image is so thin that all of it is `d` pixels from the middle of the second, which
+/// has the half width `half`, under a tent, whose gas has the mean optical depth `depth`, and which has gas on the share `share` of its
+/// area.
 fn second_before(d: f32, half: f32, depth: f32, share: f32) -> Before {
     // Over the tent by three points with its variance, 1/6.
     let aside = 0.57735027 * disk.least_width;
@@ -318,8 +319,8 @@ fn apparition_of(order: u32, plane: HalfPlane, rays: Rays, turn: f32) -> Apparit
         (middle - 0.5 * (rays.second_begin + rays.second_end)) / pixel, 0.5 * abs(rays.second_end - rays.second_begin) / pixel);
 }
 
-/// Mixes the gas of a circle, `own`, with the mean gas of its image where that is thin; depths are along the disk's axis. `azimuth` is that from the camera's, `slant` the
-/// way through the disk along the ray over that along its axis.
+/// Mixes the gas of a circle, `own`, with the mean gas of its image where that is thin; depths are along the disk's axis. `azimuth` is that
+/// from the camera's, `slant` the way through the disk along the ray over that along its axis.
 fn seen_gas(row: u32, own: SeenGas, slant: f32, azimuth: f32, rays: Rays, seen: Apparition, share: f32) -> SeenGas {
     let circle = circles[row];
     let own_part = own_share(seen.half_width);
