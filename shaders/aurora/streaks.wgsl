@@ -9,7 +9,6 @@
 #import lensrunner::gpu::types::Instance
 
 struct AuroraSettings {
-    /// Streaks.
     streaks: u32,
     /// Chords of a streak that is not red.
     chords: u32,
