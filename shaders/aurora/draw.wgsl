@@ -7,8 +7,9 @@
 @group(1) @binding(1) var<storage, read> strokes: array<Stroke>;
 
 struct Level {
-    /// From NDC of the screen to those of the level with its margin: xy times, zw plus.
-    place: vec4<f32>,
+    /// From NDC of the screen to those of the level with its margin: times this, plus that.
+    scale: vec2<f32>,
+    offset: vec2<f32>,
 }
 
 struct Spot {
@@ -24,11 +25,10 @@ fn vertex(@builtin(vertex_index) i: u32) -> Spot {
     let stroke = strokes[i / CORNERS];
     let k = i % CORNERS;
     let corner = vec2<f32>(select(-1.0, 1.0, (k & 1u) == 1u), select(-1.0, 1.0, (k >= 2u) & (k != 3u)));
-    let screen = vec2<f32>(stroke.middle[0], stroke.middle[1]) + vec2<f32>(stroke.along[0], stroke.along[1]) * corner.x
-        + vec2<f32>(stroke.across[0], stroke.across[1]) * corner.y;
+    let screen = stroke.middle + stroke.along * corner.x + stroke.across * corner.y;
     let place = vec2<f32>(0.5 * (corner.x + 1.0) * (1.0 + stroke.length), SIGMAS * corner.y);
-    let light = vec4<f32>(unpack2x16float(stroke.light[0]), unpack2x16float(stroke.light[1]));
-    return Spot(vec4<f32>(screen * level.place.xy + level.place.zw, stroke.depth, 1.0), place, light, stroke.length);
+    let light = vec4<f32>(unpack2x16float(stroke.green_and_blue), unpack2x16float(stroke.red_and_crimson));
+    return Spot(vec4<f32>(screen * level.scale + level.offset, stroke.depth, 1.0), place, light, stroke.length);
 }
 
 /// An evenly bright line from 0 on, blurred over one: smoothstep is the blur by a parabola.

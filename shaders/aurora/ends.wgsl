@@ -34,9 +34,9 @@ fn rays(along: f32, time: f32, apart: f32) -> f32 {
     return fine * coarse * 4.0;
 }
 
-/// Brightness of a position by its local time: strokes.zw point to magnetic midnight.
+/// Brightness of a position by its local time.
 fn night(place: vec2<f32>) -> f32 {
-    return 1.0 + dot(place, aurora.strokes.zw) / max(length(place), 1.0);
+    return 1.0 + dot(place, aurora.midnight) / max(length(place), 1.0);
 }
 
 /// A place as its light arrives.
@@ -65,7 +65,7 @@ fn to_camera(along: f32, across: vec3<f32>, path: f32) -> vec3<f32> {
 /// The place so many km east, north and up of a reference. What depends on its distance from the axis is taken as linear; where about the
 /// axis it is, exactly.
 fn placed(reference: Reference, aside: vec3<f32>) -> Arriving {
-    let left = reference.left.xyz + reference.east.xyz * aside.x + reference.north.xyz * aside.y + reference.up.xyz * aside.z;
+    let left = reference.left + reference.east * aside.x + reference.north * aside.y + reference.up * aside.z;
     var place: Arriving;
     place.distance = length(left.xy);
     place.towards = vec2<f32>(1.0, 0.0);
@@ -73,7 +73,7 @@ fn placed(reference: Reference, aside: vec3<f32>) -> Arriving {
         place.towards = left.xy / place.distance;
     }
     let further = place.distance - length(reference.left.xy);
-    let arriving = reference.arriving.xyz + reference.by_across.xyz * further + reference.by_along.xyz * (left.z - reference.left.z);
+    let arriving = reference.arriving + reference.by_across * further + reference.by_along * (left.z - reference.left.z);
     place.along = arriving.x;
     place.across = beside(place.towards) * arriving.y;
     place.path = arriving.z;
@@ -89,7 +89,7 @@ const MOST_TURN: f32 = 0.05;
 fn moved(reference: Reference, place: Arriving, step: vec3<f32>, wide: f32) -> vec3<f32> {
     let outward = dot(place.towards, step.xy);
     let about = place.towards.x * step.y - place.towards.y * step.x;
-    let change = reference.by_across.xyz * outward + reference.by_along.xyz * step.z;
+    let change = reference.by_across * outward + reference.by_along * step.z;
     let ring = place.ring / max(place.distance, wide * abs(about) / MOST_TURN + 1e-9);
     let turned = beside(vec2<f32>(-place.towards.y, place.towards.x)) * about * (reference.by_across.y + ring);
     return to_camera(change.x, beside(place.towards) * change.y + turned, change.z);
@@ -99,7 +99,7 @@ fn moved(reference: Reference, place: Arriving, step: vec3<f32>, wide: f32) -> v
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let ends = chord_room();
     let index = id.x;
-    if index >= aurora.counts.x * ends {
+    if index >= aurora.streaks * ends {
         return;
     }
     let streak = streak_of(index / ends);
@@ -110,40 +110,39 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let height = chord_height(streak.kind, end_index, count);
     let wait = waits(streak, height);
-    let age = wait + aurora.clock.y;
+    let age = wait + aurora.ahead;
     let segment = segments[streak.segment];
-    let nodes_along = streak.along * f32(segment.range.w);
-    let before = min(u32(nodes_along), segment.range.w - 1u);
+    let nodes_along = streak.along * f32(segment.span);
+    let before = min(u32(nodes_along), segment.span - 1u);
     let part = nodes_along - f32(before);
-    let first = segment.range.y + before;
+    let first = segment.first_node + before;
     let a = node_at(first, age);
     let b = node_at(first + 1u, age);
-    let curtain = between_nodes(node_at(first - 1u, age).xy, a.xy, b.xy, node_at(first + 2u, age).xy, part);
+    let curtain = between_nodes(node_at(first - 1u, age).place, a.place, b.place, node_at(first + 2u, age).place, part);
     let place = curtain.xy;
     let step = curtain.zw;
     let body = at_height(place, height, streak.south);
-    let slot = end_index + select(0u, aurora.counts.y + 1u, streak.kind == RED);
+    let slot = end_index + select(0u, aurora.chords + 1u, streak.kind == RED);
     let reference = references[first_reference(streak.segment, streak.south, id.y) + slot];
-    let middle = vec3<f32>(reference.east.w, reference.north.w, reference.up.w);
-    let aside = transpose(across_field(middle)) * (body - middle);
+    let aside = transpose(across_field(reference.body)) * (body - reference.body);
     var end: ChordEnd;
     let place_seen = placed(reference, aside);
     let on_ring = abs(place_seen.ring) > 0.5 * length(place_seen.across);
-    let seen_as = end_seen(reference.apparent.w > 0.0, on_ring, place_seen.towards);
-    end.apparent = vec4<f32>(to_camera(place_seen.along, place_seen.across, place_seen.path), seen_as);
+    end.seen = end_seen(reference.is_seen != 0u, on_ring, place_seen.towards);
+    end.apparent = to_camera(place_seen.along, place_seen.across, place_seen.path);
     // Along the curtain, in the directions east and north of the place (the plane's middle is the pole), and across it.
     let pole = normalize(place + vec2<f32>(1e-6, 0.0));
     let towards = step / max(length(step), 1e-6);
     let turn = vec2<f32>(pole.x * towards.y - pole.y * towards.x, -dot(pole, towards));
-    let apart = streak.apart * f32(segment.range.w) * (b.w - a.w);
-    let along = mix(a.w, b.w, part);
+    let apart = streak.apart * f32(segment.span) * (b.along - a.along);
+    let along = mix(a.along, b.along, part);
     let whole = night(place);
-    let waited = whole * mix(a.z, b.z, part) * mix(1.0, rays(along, aurora.clock.z - wait, apart), aurora.clock.w);
-    let now_a = node_at(first, aurora.clock.y).z;
-    let now_b = node_at(first + 1u, aurora.clock.y).z;
-    let prompt = whole * mix(now_a, now_b, part) * mix(1.0, rays(along, aurora.clock.z, apart), aurora.clock.w);
+    end.waited = whole * mix(a.flux, b.flux, part) * mix(1.0, rays(along, aurora.clock - wait, apart), aurora.contrast);
+    let now_a = node_at(first, aurora.ahead).flux;
+    let now_b = node_at(first + 1u, aurora.ahead).flux;
+    end.prompt = whole * mix(now_a, now_b, part) * mix(1.0, rays(along, aurora.clock, apart), aurora.contrast);
     let wide = sqrt(streak.spread);
-    end.along = vec4<f32>(moved(reference, place_seen, reference.east.xyz * turn.x + reference.north.xyz * turn.y, wide.x), waited);
-    end.across = vec4<f32>(moved(reference, place_seen, reference.north.xyz * turn.x - reference.east.xyz * turn.y, wide.y), prompt);
-    chords[id.y * aurora.counts.x * ends + index] = end;
+    end.along = moved(reference, place_seen, reference.east * turn.x + reference.north * turn.y, wide.x);
+    end.across = moved(reference, place_seen, reference.north * turn.x - reference.east * turn.y, wide.y);
+    chords[id.y * aurora.streaks * ends + index] = end;
 }

@@ -16,20 +16,20 @@ const ASIDE: f32 = 20.0;
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let room = reference_room();
-    let both = (aurora.history.w & AURORA_BOTH_POLES) != 0u;
+    let both = (aurora.flags & AURORA_BOTH_POLES) != 0u;
     let poles = select(1u, 2u, both);
     let number = id.x / room;
     let segment_index = number / poles;
-    if segment_index >= aurora.history.y {
+    if segment_index >= aurora.segments {
         return;
     }
     let south = number % poles == 1u;
-    let red = id.x % room > aurora.counts.y;
+    let red = id.x % room > aurora.chords;
     let kind = select(GREEN, RED, red);
-    let end = id.x % room - select(0u, aurora.counts.y + 1u, red);
+    let end = id.x % room - select(0u, aurora.chords + 1u, red);
     let height = chord_height(kind, end, chords_of(kind));
     let segment = segments[segment_index];
-    let middle = middle_of(segment, aurora.clock.y + mean_wait(kind, height));
+    let middle = middle_of(segment, aurora.ahead + mean_wait(kind, height));
     let body = at_height(middle, height, south);
     let axes = across_field(body);
 
@@ -63,13 +63,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let determinant = max(squares.x * squares.z - squares.y * squares.y, 1e-30);
     var reference: Reference;
-    reference.apparent = vec4<f32>(seen, select(0.0, 1.0, valid));
-    reference.left = vec4<f32>(left[0], 0.0);
-    reference.east = vec4<f32>((left[1] - left[0]) / ASIDE, body.x);
-    reference.north = vec4<f32>((left[2] - left[0]) / ASIDE, body.y);
-    reference.up = vec4<f32>((left[3] - left[0]) / ASIDE, body.z);
-    reference.arriving = vec4<f32>(arriving[0], 0.0);
-    reference.by_across = vec4<f32>((across_sum * squares.z - along_sum * squares.y) / determinant, 0.0);
-    reference.by_along = vec4<f32>((along_sum * squares.x - across_sum * squares.y) / determinant, 0.0);
-    references[id.y * aurora.history.y * poles * room + id.x] = reference;
+    reference.body = body;
+    reference.is_seen = select(0u, 1u, valid);
+    reference.apparent = seen;
+    reference.left = left[0];
+    reference.east = (left[1] - left[0]) / ASIDE;
+    reference.north = (left[2] - left[0]) / ASIDE;
+    reference.up = (left[3] - left[0]) / ASIDE;
+    reference.arriving = arriving[0];
+    reference.by_across = (across_sum * squares.z - along_sum * squares.y) / determinant;
+    reference.by_along = (along_sum * squares.x - across_sum * squares.y) / determinant;
+    references[id.y * aurora.segments * poles * room + id.x] = reference;
 }

@@ -25,7 +25,7 @@ fn room_of(instance: u32, level: ptr<function, u32>) -> u32 {
     for (var attempt = 0u; attempt < 2u; attempt++) {
         let pair = *level / 2u;
         let counter = draws + 4u * PYRAMID + pair;
-        if atomicAdd(&stroke_draws[counter], 1u) < (aurora.history.z >> pair) {
+        if atomicAdd(&stroke_draws[counter], 1u) < (aurora.room >> pair) {
             let own = draws + 4u * *level;
             let before = atomicAdd(&stroke_draws[own], CORNERS);
             if (*level & 1u) == 1u {

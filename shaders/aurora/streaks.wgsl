@@ -9,20 +9,41 @@
 #import lensrunner::gpu::types::Instance
 
 struct AuroraSettings {
-    /// x: streaks, y: chords of a streak that is not red, z: parts of a streak, w: nodes in a row of the history.
-    counts: vec4<u32>,
-    /// x: which row of the history is the newest, y: segments, z: room for strokes of one instance in the two finest levels (see room_of),
-    /// w: AURORA_*.
-    history: vec4<u32>,
-    /// x: seconds between rows, y: by how many seconds the newest row is ahead of the time that is seen, z: time in s for the rays (mod
-    /// RAYS_PERIOD), w: contrast.
-    clock: vec4<f32>,
-    /// x: standard deviation of a luminous point in km, y: levels of the pyramid in use, zw: direction to magnetic midnight; its length is
-    /// by how much an oval is brighter there.
-    strokes: vec4<f32>,
-    /// Greatest and least height in km of green light (xy) and of red (zw).
-    heights: vec4<f32>,
-};
+    streaks: u32,
+    /// Chords of a streak that is not red.
+    chords: u32,
+    /// Parts of a streak.
+    parts: u32,
+    /// Nodes in a row of the history.
+    row_nodes: u32,
+    /// Which row of the history is the newest.
+    newest_row: u32,
+    /// Parts of curtains.
+    segments: u32,
+    /// Room for strokes of one instance in the two finest levels (see room_of).
+    room: u32,
+    /// AURORA_*.
+    flags: u32,
+    /// Seconds between rows.
+    row_seconds: f32,
+    /// By how many seconds the newest row is ahead of the time that is seen.
+    ahead: f32,
+    /// Time in s for the rays (mod RAYS_PERIOD).
+    clock: f32,
+    /// Of the rays.
+    contrast: f32,
+    /// Standard deviation of a luminous point, in km.
+    point: f32,
+    /// Levels of the pyramid in use.
+    levels: u32,
+    /// Direction to magnetic midnight; its length is by how much an oval is brighter there.
+    midnight: vec2<f32>,
+    /// Greatest and least height, in km, of green light and of red.
+    green_top: f32,
+    green_foot: f32,
+    red_top: f32,
+    red_foot: f32,
+}
 
 /// The walk of Sekiguchi et al.: linear on the screen.
 const AURORA_LINEAR: u32 = 1u;
@@ -31,47 +52,73 @@ const AURORA_BOTH_POLES: u32 = 2u;
 
 /// A part of a curtain between two nodes.
 struct Segment {
-    /// x: its first streak, y: its first node, z: its streaks (a multiple of RED_EVERY for each pole), w: nodes from there to its last.
-    range: vec4<u32>,
-    /// x: collisions of 35 eV in it (kR km²), y: width and z: length in km, w unused.
-    light: vec4<f32>,
+    /// Its first streak.
+    first_streak: u32,
+    /// Its streaks: a multiple of RED_EVERY for each pole.
+    streaks: u32,
+    /// Its first node, and how many nodes further its last is.
+    first_node: u32,
+    span: u32,
+    /// Collisions of 35 eV in it, in kR km².
+    collisions: f32,
+    /// In km.
+    width: f32,
+    length: f32,
+}
+
+/// A node of a curtain at the time of a row.
+struct CurtainNode {
+    /// Position in the plane across the field, in km.
+    place: vec2<f32>,
+    /// Energy flux over its mean.
+    flux: f32,
+    /// Position along the curtain at rest, in km.
+    along: f32,
 }
 
 /// The middle of a part of a curtain, at the height of an end of chords, as the camera sees it.
 struct Reference {
-    /// Apparent place, camera axes, in r_s; w: 1 where there is one.
-    apparent: vec4<f32>,
-    /// Where its light left, by the axis of hole and camera (Answer.by_axis), in r_s; w unused.
-    left: vec4<f32>,
-    /// The change of `left` per km in two directions across the field and in one along it (across_field); w: x, y and z of the position
-    /// itself.
-    east: vec4<f32>,
-    north: vec4<f32>,
-    up: vec4<f32>,
-    /// The same light as it arrives, in the plane of hole, camera and place: light path times its direction along the axis (x) and across it
-    /// towards the place (y), and the light path (z), in r_s; and the change of these per r_s of `left` across and along the axis. They are
-    /// smooth on the axis behind the hole, where the apparent place is not.
-    arriving: vec4<f32>,
-    by_across: vec4<f32>,
-    by_along: vec4<f32>,
+    /// Its position, in km.
+    body: vec3<f32>,
+    /// 1 where it is seen, else 0.
+    is_seen: u32,
+    /// Apparent place, camera axes, in r_s.
+    apparent: vec3<f32>,
+    /// Where its light left, by the axis of hole and camera (Answer.by_axis), in r_s.
+    left: vec3<f32>,
+    /// The change of `left` per km in two directions across the field and in one along it (across_field).
+    east: vec3<f32>,
+    north: vec3<f32>,
+    up: vec3<f32>,
+    /// The same light as it arrives, a vector of spacetime in the plane of hole, camera and place: light path times its direction along the
+    /// axis (x) and across it towards the place (y), and the light path (z), in r_s; and its change per r_s of `left` across and along the
+    /// axis. They are smooth on the axis behind the hole, where the apparent place is not.
+    arriving: vec3<f32>,
+    by_across: vec3<f32>,
+    by_along: vec3<f32>,
 }
 
 /// One end of a chord as the camera sees it.
 struct ChordEnd {
-    /// Apparent place, camera axes, in r_s; w: end_seen.
-    apparent: vec4<f32>,
-    /// Its change per km along the curtain; w: energy flux over its mean, with the rays, when the green or red light seen there was made.
-    along: vec4<f32>,
-    /// Its change per km across the curtain and the field; w: the flux for blue and crimson light, which has no delay.
-    across: vec4<f32>,
+    /// Apparent place, camera axes, in r_s.
+    apparent: vec3<f32>,
+    /// How it is seen (end_seen).
+    seen: f32,
+    /// Its change per km along the curtain.
+    along: vec3<f32>,
+    /// Energy flux over its mean, with the rays, when the green or red light seen there was made.
+    waited: f32,
+    /// Its change per km across the curtain and the field.
+    across: vec3<f32>,
+    /// The flux for blue and crimson light, which has no delay.
+    prompt: f32,
 }
 
 @group(1) @binding(0) var<uniform> aurora: AuroraSettings;
 @group(1) @binding(1) var<storage, read> aurora_instances: array<Instance>;
-/// A ring buffer of HISTORY_ROWS rows of nodes; from the newest on, each is older than the one before. x, y: position in the plane across
-/// the field in km, z: energy flux over its mean, w: position along the curtain at rest in km. Each curve has one more node at either end
-/// (between_nodes).
-@group(1) @binding(2) var<storage, read> nodes: array<vec4<f32>>;
+/// A ring buffer of HISTORY_ROWS rows of nodes; from the newest on, each is older than the one before. Each curve has one more node at
+/// either end (between_nodes).
+@group(1) @binding(2) var<storage, read> nodes: array<CurtainNode>;
 @group(1) @binding(3) var<storage, read> segments: array<Segment>;
 /// Photons (ROWS × (PARTS + 1) × 4), delays (DELAYS × 2), heights (ROWS × KINDS × (PARTS + 1)): scene::aurora::quantiles.
 @group(1) @binding(4) var<storage, read> falls: array<f32>;
@@ -103,17 +150,17 @@ const RED: u32 = 1u;
 
 /// Greatest and least height of a kind, km.
 fn height_range(kind: u32) -> vec2<f32> {
-    return select(aurora.heights.xy, aurora.heights.zw, kind == RED);
+    return select(vec2<f32>(aurora.green_top, aurora.green_foot), vec2<f32>(aurora.red_top, aurora.red_foot), kind == RED);
 }
 
 /// Chords of a streak. Red light has twice as many: it is delayed, and the delay changes fast with height.
 fn chords_of(kind: u32) -> u32 {
-    return select(aurora.counts.y, 2u * aurora.counts.y, kind == RED);
+    return select(aurora.chords, 2u * aurora.chords, kind == RED);
 }
 
 /// Room for the ends of a streak's chords.
 fn chord_room() -> u32 {
-    return 2u * aurora.counts.y + 1u;
+    return 2u * aurora.chords + 1u;
 }
 
 /// Height of the end `k` of `count` chords: evenly spaced; those of red closer together further down, where the delay is seconds and not
@@ -133,13 +180,13 @@ fn chord_at(kind: u32, height: f32, count: u32) -> u32 {
 
 /// Number of ends of chords at which a part of a curtain is projected: first those of green, then those of red.
 fn reference_room() -> u32 {
-    return 3u * aurora.counts.y + 2u;
+    return 3u * aurora.chords + 2u;
 }
 
 /// Index of the first of them for a part, in the north or in the south, in one instance.
 fn first_reference(segment: u32, south: bool, instance: u32) -> u32 {
-    let poles = select(1u, 2u, (aurora.history.w & AURORA_BOTH_POLES) != 0u);
-    return ((instance * aurora.history.y + segment) * poles + select(0u, 1u, south)) * reference_room();
+    let poles = select(1u, 2u, (aurora.flags & AURORA_BOTH_POLES) != 0u);
+    return ((instance * aurora.segments + segment) * poles + select(0u, 1u, south)) * reference_room();
 }
 
 /// How an end of a chord is seen: 0 not at all, 1 well, 2 to 3 on the ring that the axis behind the hole is drawn out to: then the fraction
@@ -186,36 +233,36 @@ const EVEN: vec2<f32> = vec2<f32>(0.7548777, 0.5698403);
 /// A streak by its number. Streaks of a kind lie evenly along their segment; any few of them are also even in delay and phase.
 fn streak_of(index: u32) -> Streak {
     var low = 0u;
-    var high = aurora.history.y - 1u;
+    var high = aurora.segments - 1u;
     while low < high {
         let middle = (low + high + 1u) / 2u;
-        if segments[middle].range.x <= index {
+        if segments[middle].first_streak <= index {
             low = middle;
         } else {
             high = middle - 1u;
         }
     }
-    let range = segments[low].range;
-    let number = index - range.x;
+    let segment = segments[low];
+    let number = index - segment.first_streak;
     var streak: Streak;
     streak.segment = low;
     // One in five is red, which is faint and blurred by its delay.
     let turn = number % RED_EVERY;
     let many = RED_EVERY - 1u;
     streak.kind = select(GREEN, RED, turn == many);
-    let both = (aurora.history.w & AURORA_BOTH_POLES) != 0u;
+    let both = (aurora.flags & AURORA_BOTH_POLES) != 0u;
     streak.south = both & (((number / RED_EVERY) & 1u) == 1u);
     // Its number among those of its kind and pole, and their number.
     let turns = RED_EVERY * select(1u, 2u, both);
     let own = select(many * (number / turns) + turn, number / turns, turn == many);
-    let all = select(many, 1u, turn == many) * max(range.z / turns, 1u);
+    let all = select(many, 1u, turn == many) * max(segment.streaks / turns, 1u);
     streak.share = select(1.0, 0.5, both) / f32(all);
     streak.apart = 1.0 / f32(all);
     streak.along = (f32(own) + 0.5) * streak.apart;
     // Spread over its part of the curtain.
-    let point = aurora.strokes.x * aurora.strokes.x;
-    let gap = segments[low].light.z * streak.apart / SMOOTH;
-    streak.spread = vec2<f32>(max(point, gap * gap), point + segments[low].light.y * segments[low].light.y / 12.0);
+    let point = aurora.point * aurora.point;
+    let gap = segment.length * streak.apart / SMOOTH;
+    streak.spread = vec2<f32>(max(point, gap * gap), point + segment.width * segment.width / 12.0);
     let even = fract(EVEN * f32(own) + unit(hash(2u * low + streak.kind)));
     streak.wait = even.x;
     streak.phase = even.y - 0.5;
@@ -300,13 +347,14 @@ fn across_field(body: vec3<f32>) -> mat3x3<f32> {
     return mat3x3<f32>(east, cross(up, east), up);
 }
 
-/// A node's position and flux `age` seconds ago; before the oldest row it rests.
-fn node_at(node: u32, age: f32) -> vec4<f32> {
-    let x = clamp(age / aurora.clock.x, 0.0, f32(HISTORY_ROWS - 1u));
+/// A node `age` seconds ago; before the oldest row it rests.
+fn node_at(node: u32, age: f32) -> CurtainNode {
+    let x = clamp(age / aurora.row_seconds, 0.0, f32(HISTORY_ROWS - 1u));
     let row = min(u32(x), HISTORY_ROWS - 2u);
-    let newer = nodes[((aurora.history.x + row) % HISTORY_ROWS) * aurora.counts.w + node];
-    let older = nodes[((aurora.history.x + row + 1u) % HISTORY_ROWS) * aurora.counts.w + node];
-    return mix(newer, older, x - f32(row));
+    let newer = nodes[((aurora.newest_row + row) % HISTORY_ROWS) * aurora.row_nodes + node];
+    let older = nodes[((aurora.newest_row + row + 1u) % HISTORY_ROWS) * aurora.row_nodes + node];
+    let t = x - f32(row);
+    return CurtainNode(mix(newer.place, older.place, vec2<f32>(t)), mix(newer.flux, older.flux, t), mix(newer.along, older.along, t));
 }
 
 /// A vector of length `long` in the direction of `v`; zero if `v` is.
@@ -327,7 +375,9 @@ fn between_nodes(before: vec2<f32>, a: vec2<f32>, b: vec2<f32>, after: vec2<f32>
 
 /// The middle of a part of a curtain `age` seconds ago; twin of `middle_of` in src/render/aurora/node_history.rs.
 fn middle_of(segment: Segment, age: f32) -> vec2<f32> {
-    let node = segment.range.y + (segment.range.w - 1u) / 2u;
-    let t = select(1.0, 0.5, segment.range.w % 2u == 1u);
-    return between_nodes(node_at(node - 1u, age).xy, node_at(node, age).xy, node_at(node + 1u, age).xy, node_at(node + 2u, age).xy, t).xy;
+    let node = segment.first_node + (segment.span - 1u) / 2u;
+    let t = select(1.0, 0.5, segment.span % 2u == 1u);
+    let before = node_at(node - 1u, age).place;
+    let after = node_at(node + 2u, age).place;
+    return between_nodes(before, node_at(node, age).place, node_at(node + 1u, age).place, after, t).xy;
 }

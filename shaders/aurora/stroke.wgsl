@@ -4,15 +4,16 @@
 
 struct Stroke {
     /// NDC of its middle.
-    middle: array<f32, 2>,
+    middle: vec2<f32>,
     /// From there to its end along the streak, with its blur; and to its side, SIGMAS standard deviations away; NDC.
-    along: array<f32, 2>,
-    across: array<f32, 2>,
+    along: vec2<f32>,
+    across: vec2<f32>,
     depth: f32,
     /// Its length without the blur, over the length in which the blur at an end goes from nothing to all.
     length: f32,
-    /// kR of each line far from its ends: the first two lines, and the others, as half floats.
-    light: array<u32, 2>,
+    /// kR of each line far from its ends, in pairs of half floats.
+    green_and_blue: u32,
+    red_and_crimson: u32,
 }
 
 /// Standard deviations to either side of a stroke that are filled; they have all but 1 % of its light.

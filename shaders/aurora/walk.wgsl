@@ -61,8 +61,8 @@ fn unseen(spread: vec2<f32>, first: u32, count: u32) -> bool {
     var nearest = 0.0;
     for (var k = 0u; k <= count; k++) {
         let end = chords[first + k];
-        let reach = reach_km * max(length(end.along.xyz), length(end.across.xyz));
-        let clip = clip_position(end.apparent.xyz);
+        let reach = reach_km * max(length(end.along), length(end.across));
+        let clip = clip_position(end.apparent);
         // Distances from the four planes through the camera and the screen's edges, at least.
         let over = vec4<f32>(clip.xy, -clip.xy) - clip.w - reach * (frame.focal.xyxy + 1.0);
         beyond &= over > vec4<f32>(0.0);
@@ -100,10 +100,10 @@ fn width_along(streak: Streak, height: f32, first: u32, count: u32, focal: vec2<
     let b = chords[first + chord + 1u];
     let per_chord = chord_height(kind, chord, count) - chord_height(kind, chord + 1u, count);
     // Whichever end is in front of the camera.
-    let c = select(b.apparent.xyz, a.apparent.xyz, a.apparent.z < -frame.near);
-    let fallen = length(screen_step(c, (b.apparent.xyz - a.apparent.xyz) / per_chord, focal));
-    let along = screen_step(c, a.along.xyz, focal);
-    let across = screen_step(c, a.across.xyz, focal);
+    let c = select(b.apparent, a.apparent, a.apparent.z < -frame.near);
+    let fallen = length(screen_step(c, (b.apparent - a.apparent) / per_chord, focal));
+    let along = screen_step(c, a.along, focal);
+    let across = screen_step(c, a.across, focal);
     let wide = min(dot(along, along) * streak.spread.x, dot(across, across) * streak.spread.y) + PIXEL_VARIANCE;
     return sqrt(wide) / max(fallen, 1e-6);
 }
@@ -128,9 +128,16 @@ fn apparent_at(kind: u32, height: f32, first: u32, count: u32) -> vec4<f32> {
     let chord = chord_at(kind, height, count);
     let above = chord_height(kind, chord, count);
     let s = clamp((above - height) / (above - chord_height(kind, chord + 1u, count)), 0.0, 1.0);
-    let a = chords[first + chord].apparent;
-    let b = chords[first + chord + 1u].apparent;
-    return vec4<f32>(mix(a.xyz, b.xyz, s), select(0.0, 1.0, is_chord(a.w, b.w)));
+    let a = chords[first + chord];
+    let b = chords[first + chord + 1u];
+    return vec4<f32>(mix(a.apparent, b.apparent, s), select(0.0, 1.0, is_chord(a.seen, b.seen)));
+}
+
+/// Covariances of the blur of a stroke on the screen, in pixels².
+struct Blur {
+    along: f32,
+    across: f32,
+    both: f32,
 }
 
 /// A stroke on the screen, in pixels.
@@ -144,18 +151,17 @@ struct Shape {
     sigma: f32,
 }
 
-/// The layout of a stroke of a length along the unit vector `u`, in a level. `blur` has the covariances (along, across, both) that it shall
-/// have on the screen.
-fn shape_of(level: u32, u: vec2<f32>, seen: f32, blur: vec3<f32>) -> Shape {
+/// The layout of a stroke of a length along the unit vector `u`, in a level, with the blur that it shall have on the screen.
+fn shape_of(level: u32, u: vec2<f32>, seen: f32, blur: Blur) -> Shape {
     // Enlarging widens it, so it is added narrower by that.
     let widening = 0.25 * (f32(1u << (2u * level)) - 1.0);
-    let narrower = max(blur.xy - widening, vec2<f32>(0.5 * PIXEL_VARIANCE));
+    let narrower = max(vec2<f32>(blur.along, blur.across) - widening, vec2<f32>(0.5 * PIXEL_VARIANCE));
     var shape: Shape;
     shape.sigma = sqrt(narrower.y);
-    shape.blurred = END * sqrt(max(narrower.x - blur.z * blur.z / narrower.y, 0.1 * narrower.x));
+    shape.blurred = END * sqrt(max(narrower.x - blur.both * blur.both / narrower.y, 0.1 * narrower.x));
     shape.stretch = max(seen, SHORTEST * shape.blurred);
     shape.half = u * (0.5 * shape.stretch + shape.blurred);
-    shape.side = (vec2<f32>(-u.y, u.x) + u * (blur.z / narrower.y)) * SIGMAS * shape.sigma;
+    shape.side = (vec2<f32>(-u.y, u.x) + u * (blur.both / narrower.y)) * SIGMAS * shape.sigma;
     return shape;
 }
 
@@ -216,8 +222,8 @@ fn line_of(streak: Streak, joined: Joined, first: u32, count: u32, is_linear: bo
     line.high = apparent_at(streak.kind, joined.height + joined.half_km, first, count);
     line.low = apparent_at(streak.kind, joined.height - joined.half_km, first, count);
     // A long part may go over several chords.
-    let above = chords[first + chord_at(streak.kind, joined.height + joined.half_km, count)].apparent.w;
-    let below = chords[first + chord_at(streak.kind, joined.height - joined.half_km, count) + 1u].apparent.w;
+    let above = chords[first + chord_at(streak.kind, joined.height + joined.half_km, count)].seen;
+    let below = chords[first + chord_at(streak.kind, joined.height - joined.half_km, count) + 1u].seen;
     if line.high.w * line.low.w == 0.0 || !is_chord(above, below) {
         return line;
     }
@@ -253,8 +259,7 @@ struct Seen {
     /// Its direction, a unit vector, and its length.
     direction: vec2<f32>,
     length: f32,
-    /// Covariances of its blur: along it, across it, both.
-    blur: vec3<f32>,
+    blur: Blur,
     /// √det J Jᵀ of the derivative of the projection, J: pixels per km².
     area: f32,
     /// Light of the chord there, as a share: what waited, and what was prompt.
@@ -271,11 +276,11 @@ fn seen_of(streak: Streak, joined: Joined, line: Line, first: u32, count: u32, f
     let b = chords[first + chord + 1u];
     let c = 0.5 * (line.high.xyz + line.low.xyz);
     let s = clamp((above - joined.height) / per_chord, 0.0, 1.0);
-    let along = screen_step(c, mix(a.along.xyz, b.along.xyz, s), focal);
-    let across = screen_step(c, mix(a.across.xyz, b.across.xyz, s), focal);
-    let fallen = screen_step(c, (b.apparent.xyz - a.apparent.xyz) / per_chord, focal);
+    let along = screen_step(c, mix(a.along, b.along, s), focal);
+    let across = screen_step(c, mix(a.across, b.across, s), focal);
+    let fallen = screen_step(c, (b.apparent - a.apparent) / per_chord, focal);
     // The blur of a point of it, seen through J: J diag(σ²) Jᵀ.
-    let variance = vec3<f32>(streak.spread, aurora.strokes.x * aurora.strokes.x);
+    let variance = vec3<f32>(streak.spread, aurora.point * aurora.point);
     let x = vec3<f32>(along.x, across.x, fallen.x);
     let y = vec3<f32>(along.y, across.y, fallen.y);
     let blur = vec3<f32>(dot(variance, x * x), dot(variance, x * y), dot(variance, y * y)) + vec3<f32>(PIXEL_VARIANCE, 0.0, PIXEL_VARIANCE);
@@ -292,21 +297,21 @@ fn seen_of(streak: Streak, joined: Joined, line: Line, first: u32, count: u32, f
     let uu = blur.x * u.x * u.x + 2.0 * blur.y * u.x * u.y + blur.z * u.y * u.y;
     let vv = blur.x * v.x * v.x + 2.0 * blur.y * v.x * v.y + blur.z * v.y * v.y;
     let uv = blur.x * u.x * v.x + blur.y * (u.x * v.y + u.y * v.x) + blur.z * u.y * v.y;
-    seen.blur = vec3<f32>(uu, vv, uv);
+    seen.blur = Blur(uu, vv, uv);
     seen.area = length(cross(x, y));
-    seen.waited = mix(a.along.w, b.along.w, s);
-    seen.prompt = mix(a.across.w, b.across.w, s);
+    seen.waited = mix(a.waited, b.waited, s);
+    seen.prompt = mix(a.prompt, b.prompt, s);
     return seen;
 }
 
 /// The level to which a stroke goes: that at which its standard deviation is 0.75 to 1.5 pixels.
 fn level_of(seen: Seen) -> u32 {
     // The least width of the stroke: the lesser eigenvalue, with the variance of the line.
-    let total = seen.blur.x + seen.length * seen.length / 12.0;
-    let vv = seen.blur.y;
-    let gap = sqrt(0.25 * (total - vv) * (total - vv) + seen.blur.z * seen.blur.z);
+    let total = seen.blur.along + seen.length * seen.length / 12.0;
+    let vv = seen.blur.across;
+    let gap = sqrt(0.25 * (total - vv) * (total - vv) + seen.blur.both * seen.blur.both);
     let minor = sqrt(max(0.5 * (total + vv) - gap, PIXEL_VARIANCE));
-    let coarsest = max(u32(aurora.strokes.y), 1u) - 1u;
+    let coarsest = max(aurora.levels, 1u) - 1u;
     return min(u32(max(log2(2.0 * minor / NARROW), 0.0)), coarsest);
 }
 
@@ -350,34 +355,33 @@ fn draw_stroke(order: u32, line: Line, seen: Seen, photons: vec4<f32>) -> bool {
     light_up(order, around, frame.size, level == 0u);
     let half = shape.half * 2.0 / frame.size;
     let side = shape.side * 2.0 / frame.size;
-    let halves = array<u32, 2>(pack2x16float(light.xy), pack2x16float(light.zw));
-    strokes[room / CORNERS] = Stroke(array(middle.x, middle.y), array(half.x, half.y), array(side.x, side.y), depth,
-        shape.stretch / (2.0 * shape.blurred), halves);
+    strokes[room / CORNERS] = Stroke(middle, half, side, depth, shape.stretch / (2.0 * shape.blurred), pack2x16float(light.xy),
+        pack2x16float(light.zw));
     return true;
 }
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let index = id.x;
-    if index >= aurora.counts.x {
+    if index >= aurora.streaks {
         return;
     }
     let streak = streak_of(index);
     let chord_count = chords_of(streak.kind);
-    let first = (id.y * aurora.counts.x + index) * chord_room();
+    let first = (id.y * aurora.streaks + index) * chord_room();
     if unseen(streak.spread, first, chord_count) {
         return;
     }
     // How hard its electrons are, by the flux when those of its middle came down. In rays there are more of them, and harder ones.
-    let fall = fall_at(chords[first + chord_count / 2u].along.w);
-    let count = min(aurora.counts.z, arrayLength(&strokes));
+    let fall = fall_at(chords[first + chord_count / 2u].waited);
+    let count = min(aurora.parts, arrayLength(&strokes));
     // Collisions of 35 eV, in kR km².
-    let collisions = streak.share * segments[streak.segment].light.x;
+    let collisions = streak.share * segments[streak.segment].collisions;
     let focal = frame.focal * 0.5 * frame.size;
-    let top = chords[first].apparent;
-    let foot = chords[first + chord_count].apparent;
-    let is_linear = (aurora.history.w & AURORA_LINEAR) != 0u;
-    if is_linear & ((top.w * foot.w == 0.0) | (max(top.z, foot.z) > -frame.near)) {
+    let top = chords[first];
+    let foot = chords[first + chord_count];
+    let is_linear = (aurora.flags & AURORA_LINEAR) != 0u;
+    if is_linear & ((top.seen * foot.seen == 0.0) | (max(top.apparent.z, foot.apparent.z) > -frame.near)) {
         return;
     }
     var joined: Joined;
@@ -393,7 +397,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let made_before = made;
         made = photons_of(fall, streak.kind, light_above(joined.next, count, streak.phase));
         let chord = chord_at(streak.kind, joined.height, chord_count);
-        if !is_chord(chords[first + chord].apparent.w, chords[first + chord + 1u].apparent.w) {
+        if !is_chord(chords[first + chord].seen, chords[first + chord + 1u].seen) {
             continue;
         }
         let line = line_of(streak, joined, first, chord_count, is_linear);

@@ -9,8 +9,15 @@
 #import lensrunner::gpu::types::{SeenVertex, texture_point}
 
 @group(1) @binding(0) var<storage, read> seen: array<SeenVertex>;
-/// Of each instance: turns by r_s/c, and the azimuth, in turns, of what is at 0 in the model at T₀, which is T less the camera's radius.
-@group(1) @binding(2) var<storage, read> turning: array<vec2<f32>>;
+@group(1) @binding(2) var<storage, read> turning: array<Turning>;
+
+/// How an instance turns.
+struct Turning {
+    /// In turns per r_s/c.
+    rate: f32,
+    /// Azimuth, in turns, of what is at 0 in the model at T₀, which is T less the camera's radius.
+    azimuth: f32,
+}
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Gas {
@@ -20,14 +27,14 @@ fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     let gas = radial_gas(r);
     let ring = turning[found.instance];
     // The gas is that of the place where the light left.
-    let azimuth = place_in_disk.x + ring.y + ring.x * (frame.camera_radius - found.path);
+    let azimuth = place_in_disk.x + ring.azimuth + ring.rate * (frame.camera_radius - found.path);
     let turn = 6.28318531 * azimuth;
     let outward = dot(found.leaving, vec3<f32>(cos(turn), sin(turn), 0.0)) > 0.0;
     let ratio = gas_ratio(found.apparent, r, outward, gas);
-    let light = gas_light(gas.a.x, log(ratio.x));
-    let depth = gas.a.y * disk_slant(ratio.y, found.path, gas.b.y);
-    let turns = azimuth - gas.b.x / 6.28318531;
-    return gas_at(clip_position(found.apparent), turns, gas.b.z, found.path, depth, light, vec2<f32>(0.0, 1e6), ratio.y);
+    let light = gas_light(gas.ln_temperature, log(ratio.x));
+    let depth = gas.depth * disk_slant(ratio.y, found.path, gas.half_height);
+    let turns = azimuth - gas.lead / 6.28318531;
+    return gas_at(clip_position(found.apparent), turns, gas.pattern_height, found.path, depth, light, vec2<f32>(0.0, 1e6), ratio.y);
 }
 
 @fragment

@@ -3,24 +3,18 @@
 // Functions of the radius for sprites and polygons, which have points at any: a table of src/scene/disk/radial.rs, linear in r.
 
 #import lensrunner::disk::motion::disk_frequency
+#import lensrunner::disk::types::{mixed_gas, RadialGas}
 #import lensrunner::gpu::bindings::frame
 
-/// Two rows for each radius: (ln T, depth, momentum outward, along), (lead, half height, ln r over the pattern's height, radius).
-@group(1) @binding(1) var<storage, read> radial_table: array<vec4<f32>>;
-
-struct RadialGas {
-    a: vec4<f32>,
-    b: vec4<f32>,
-}
+@group(1) @binding(1) var<storage, read> radial_table: array<RadialGas>;
 
 fn radial_gas(r: f32) -> RadialGas {
-    let last = arrayLength(&radial_table) / 2u - 1u;
-    let first = radial_table[1].w;
-    let end = radial_table[2u * last + 1u].w;
+    let last = arrayLength(&radial_table) - 1u;
+    let first = radial_table[0].radius;
+    let end = radial_table[last].radius;
     let place = clamp((r - first) / (end - first), 0.0, 1.0) * f32(last);
     let i = min(u32(place), last - 1u);
-    let t = vec4<f32>(place - f32(i));
-    return RadialGas(mix(radial_table[2u * i], radial_table[2u * i + 2u], t), mix(radial_table[2u * i + 1u], radial_table[2u * i + 3u], t));
+    return mixed_gas(radial_table[i], radial_table[i + 1u], place - f32(i));
 }
 
 /// ν_observed/ν_emitted (x) and |cos| to the normal in the gas's frame (y) for gas at r seen in the direction `apparent` (camera axes),
@@ -30,6 +24,6 @@ fn gas_ratio(apparent: vec3<f32>, r: f32, outward: bool, gas: RadialGas) -> vec2
     let k = -past;
     let n = frame.outward;
     let energy = length(past) - frame.river_speed * dot(n, k);
-    let found = disk_frequency(energy, cross(n * frame.camera_radius, k), r, outward, gas.a.zw);
+    let found = disk_frequency(energy, cross(n * frame.camera_radius, k), r, outward, vec2<f32>(gas.outward, gas.along));
     return vec2<f32>(clamp(1.0 / found.x, 1e-3, 1e3), found.y);
 }

@@ -13,9 +13,10 @@
 #import lensrunner::lensing::closed_form::HALF_TURN
 #import lensrunner::lensing::lookup::{lens_lookup_at, LensRay}
 
-/// Radius in r_s; where it is on its ring, even in σ, in rad; from there to the next.
 struct Sprite {
+    /// In r_s.
     radius: f32,
+    /// Where it is on its ring, even in σ, in rad; and from there to the next.
     sigma: f32,
     step: f32,
 }
@@ -52,10 +53,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 }
 
 fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
-    let nothing = SeenSprite(vec4<f32>(0.0, 0.0, 1.0, 1.0), vec4<f32>(0.0), vec4<f32>(0.0), vec4<f32>(0.0));
+    let nothing = SeenSprite(vec3<f32>(0.0, 0.0, 1.0), 1.0, vec3<f32>(0.0), 0.0, vec3<f32>(0.0), 0.0, vec3<f32>(0.0));
     let r = sprite.radius;
     let gas = radial_gas(r);
-    if gas.a.y < 1e-3 {
+    if gas.depth < 1e-3 {
         return nothing;
     }
     let here = bearing(sprite.sigma, disk.steepness);
@@ -114,18 +115,18 @@ fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
     }
 
     let ratio = gas_ratio(apparent, r, ray.emission_slope > 0.0, gas);
-    let depth = gas.a.y * disk_slant(ratio.y, ray.delay, gas.b.y);
-    let turns = (here.theta + atan2(disk.towards.y, disk.towards.x) - gas.b.x) / (2.0 * HALF_TURN);
-    let there = gas_at(vec4<f32>(0.0), turns, gas.b.z, ray.delay, depth, gas_light(gas.a.x, log(ratio.x)), vec2<f32>(0.0, 1e6), ratio.y);
+    let depth = gas.depth * disk_slant(ratio.y, ray.delay, gas.half_height);
+    let turns = (here.theta + atan2(disk.towards.y, disk.towards.x) - gas.lead) / (2.0 * HALF_TURN);
+    let light = gas_light(gas.ln_temperature, log(ratio.x));
+    let there = gas_at(vec4<f32>(0.0), turns, gas.pattern_height, ray.delay, depth, light, vec2<f32>(0.0, 1e6), ratio.y);
     // What the spot has of the pattern: as much as lies between two rings, and between two spots or as long as a pixel.
     let outer = radial_gas(r + image.ring_width);
-    let width = vec2<f32>((gas.b.x - outer.b.x) / (2.0 * HALF_TURN), outer.b.z - gas.b.z);
+    let width = vec2<f32>((gas.lead - outer.lead) / (2.0 * HALF_TURN), outer.pattern_height - gas.pattern_height);
     let long = vec2<f32>(step / (2.0 * HALF_TURN) * max(1.0, 1.0 / max(length(ahead), 1e-3)), 0.0);
-    let cooling = two_looks(covered(there, gas.b.z, width, long));
+    let cooling = two_looks(covered(there, gas.pattern_height, width, long));
     let colour = gas_colour(there.light.rgb, there.slope.xyz, there.light.w, cooling);
     let beyond = round((image.end - r) / image.ring_width - 0.5);
-    return SeenSprite(vec4<f32>(seen, spread), vec4<f32>(across, beyond), vec4<f32>(along, 0.0),
-        vec4<f32>(colour.rgb / max(colour.a, 1e-6), colour.a));
+    return SeenSprite(seen, spread, across, beyond, along, colour.a, colour.rgb / max(colour.a, 1e-6));
 }
 
 /// Where in the pattern the gas `there` is, `height` up, and how much of it a spot covers that has these sides where it is not sheared.

@@ -22,8 +22,9 @@ fn vertex(@builtin(vertex_index) index: u32) -> Spot {
     // One triangle round what the spot covers: where that ends it is nothing.
     let corners = array<vec2<f32>, 3>(vec2<f32>(-1.0, -1.0), vec2<f32>(3.0, -1.0), vec2<f32>(-1.0, 3.0));
     let corner = corners[index % 3u];
-    let place = sprite.place.xyz + corner.x * sprite.across.xyz + corner.y * sprite.along.xyz;
-    return Spot(vec4<f32>(place.xy, frame.near, place.z), corner, vec2<f32>(sprite.place.w, sprite.across.w), sprite.colour);
+    let place = sprite.middle + corner.x * sprite.across + corner.y * sprite.along;
+    let rings = vec2<f32>(sprite.spread, sprite.rings_beyond);
+    return Spot(vec4<f32>(place.xy, frame.near, place.z), corner, rings, vec4<f32>(sprite.light, sprite.opacity));
 }
 
 /// The share that the `count` rings beyond its own have in a place `across` from the middle of a spot, of tents that reach over `spread`

@@ -3,12 +3,18 @@
 // A spot of gas as the camera sees it.
 
 struct SeenSprite {
-    /// The middle: x, y and w of clip space; w: over how many times its own width across the orbits the spot is spread (a whole number).
-    place: vec4<f32>,
-    /// From there to its ends across the orbits and along them, in the same; w of the first: rings beyond its own, of the second unused.
-    /// Nothing where the spot is not seen.
-    across: vec4<f32>,
-    along: vec4<f32>,
-    /// Light, and opacity, of the gas there.
-    colour: vec4<f32>,
+    /// The middle: x, y and w of clip space.
+    middle: vec3<f32>,
+    /// Over how many times its own width across the orbits the spot is spread (a whole number).
+    spread: f32,
+    /// From the middle to its end across the orbits, in the same. Nothing where the spot is not seen.
+    across: vec3<f32>,
+    /// Rings beyond its own.
+    rings_beyond: f32,
+    /// The same along the orbits.
+    along: vec3<f32>,
+    /// Opacity of the gas there.
+    opacity: f32,
+    /// Its light.
+    light: vec3<f32>,
 }

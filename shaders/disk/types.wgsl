@@ -61,34 +61,106 @@ struct DiskFrame {
 
 @group(#{DATA_GROUP}) @binding(0) var<uniform> disk: DiskFrame;
 
+/// The gas at a radius.
+struct RadialGas {
+    /// The radius, in r_s.
+    radius: f32,
+    /// Azimuth by which falling gas is ahead, in rad.
+    lead: f32,
+    /// ln of the temperature in K.
+    ln_temperature: f32,
+    /// Optical depth straight through.
+    depth: f32,
+    /// Rain-frame momentum per mass outward and along the rotation.
+    outward: f32,
+    along: f32,
+    /// Half height of the disk, in r_s.
+    half_height: f32,
+    /// Height in the pattern: ln of the radius that the pattern there comes from, over the pattern's whole height.
+    pattern_height: f32,
+}
+
+/// Between the gas at two radii.
+fn mixed_gas(a: RadialGas, b: RadialGas, t: f32) -> RadialGas {
+    return RadialGas(mix(a.radius, b.radius, t), mix(a.lead, b.lead, t), mix(a.ln_temperature, b.ln_temperature, t),
+        mix(a.depth, b.depth, t), mix(a.outward, b.outward, t), mix(a.along, b.along, t), mix(a.half_height, b.half_height, t),
+        mix(a.pattern_height, b.pattern_height, t));
+}
+
 struct Circle {
-    /// Radius in r_s, lead of falling gas in rad, ln of the temperature in K, optical depth straight through.
-    gas: vec4<f32>,
-    /// Rain-frame momentum per mass outward and along the rotation, half height in r_s, ln of the pattern's radius over its height.
-    motion: vec4<f32>,
-    /// x: radius·√(1 − h²) − L, computed in f64. y: radius of the middle of the gap beside it; for the outermost circle the edge of the
-    /// disk. z: the gap over the whole ring. w: the whole gap's width over the distance from this circle to y: 2, for the outermost 1. For
-    /// the circles behind the rows: the gas of the second image through which light of the third comes: optical depth straight through (0
-    /// in the second image itself), rain-frame momentum per mass outward and along the rotation, radius in r_s.
-    place: vec4<f32>,
-    /// x: image order; y, z: innermost and outermost row of that order; w: for orders 2 and 3 the first of the circles behind the rows:
-    /// THIN_SAMPLES for each of THIN_AZIMUTHS azimuths, on radii that divide the seen width of that image equally there.
-    rows: vec4<u32>,
+    gas: RadialGas,
+    /// How far its nearest point to the camera is beyond the camera, along the axis: radius·√(1 − h²) − L, computed in f64.
+    beyond: f32,
+    /// Radius of the middle of the gap beside it; for the outermost circle the edge of the disk.
+    gap_radius: f32,
+    /// The gap over the whole ring.
+    gap: f32,
+    /// The whole gap's width over the distance from this circle to `gap_radius`: 2, for the outermost 1.
+    gap_sides: f32,
+    /// Image order, and the innermost and the outermost row of that order.
+    order: u32,
+    first_row: u32,
+    last_row: u32,
+    /// For orders 2 and 3 the first of the circles behind the rows: THIN_SAMPLES for each of THIN_AZIMUTHS azimuths, on radii that divide
+    /// the seen width of that image equally there.
+    first_sample: u32,
+    /// Of those circles: the gas of the second image through which light of the third comes: optical depth straight through (0 in the
+    /// second image itself), rain-frame momentum per mass outward and along the rotation, radius in r_s.
+    nearer_depth: f32,
+    nearer_outward: f32,
+    nearer_along: f32,
+    nearer_radius: f32,
 }
 
 struct DiskVertex {
-    /// Direction from the camera times light path, camera axes; w: the light path.
-    apparent: vec4<f32>,
-    /// x: azimuth less lead, in turns; y: height in the pattern; z: ln of the temperature that is seen, in K; w: optical depth along the
-    /// ray (close look: straight through).
-    gas: vec4<f32>,
-    /// x: ln g; y: |cos| to the normal, in the frame of the gas; z: distance from the middle of a thin image, w: its half width, both in
-    /// pixels. For order 1, z: share of the area that has gas, w: 10⁶.
-    more: vec4<f32>,
-    /// For the ring that begins here: how far its middle deviates from the straight line between its circles. x: height in the pattern; y:
-    /// logarithm of light, over itself with its sign turned; z: optical depth, over that of the line, so that it holds at any slant. w: 0
-    /// and 1 alternately from row to row, so that over a ring it is the share of the ring's width, from one side or the other.
-    bend: vec4<f32>,
+    /// Direction from the camera times light path, camera axes.
+    apparent: vec3<f32>,
+    /// The light path, in r_s; 0 for what is not seen.
+    path: f32,
+    /// Azimuth less lead, in turns.
+    turns: f32,
+    /// Height in the pattern.
+    pattern_height: f32,
+    /// ln of the temperature that is seen, in K.
+    ln_temperature: f32,
+    /// Optical depth along the ray (close look: straight through).
+    depth: f32,
+    ln_g: f32,
+    /// |cos| to the normal, in the frame of the gas.
+    cosine: f32,
+    /// The share of the drawn area that has gas.
+    filled: f32,
+    /// Distance from the middle of a thin image and its half width, in pixels; for order 1 0 and 10⁶.
+    from_middle: f32,
+    half_width: f32,
+    /// For the ring that begins here, how far its middle deviates from the straight line between its circles: height in the pattern;
+    /// logarithm of light, over itself with its sign turned; optical depth, over that of the line, so that it holds at any slant.
+    bend_height: f32,
+    bend_light: f32,
+    bend_depth: f32,
+    /// 0 and 1 alternately from row to row, so that over a ring it is the share of the ring's width, from one side or the other.
+    side: f32,
+}
+
+/// A part of an arc of a circle that ends at a vertex past the grid.
+struct Job {
+    /// The arc, counted along all rows.
+    arc: u32,
+    /// Number of that end, from 1, of so many segments.
+    number: u32,
+    count: u32,
+}
+
+/// An arc of a circle.
+struct Segments {
+    /// How many it has.
+    count: u32,
+    /// Its first vertex past the grid.
+    first: u32,
+    /// Error of its middle, in rad.
+    error: f32,
+    /// Sides of the screen beyond which all of it is, as bits.
+    beyond: u32,
 }
 
 struct Counters {

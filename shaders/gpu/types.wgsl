@@ -78,6 +78,18 @@ struct Frame {
     unused: f32,
 }
 
+/// How the eye has adapted, kept from frame to frame.
+struct Adaptation {
+    /// Factor on the picture's light.
+    exposure: f32,
+    /// Mean light of the last frame, weighted by light itself.
+    metered: f32,
+    /// 1 once a frame has been metered.
+    known: f32,
+    /// Factor on the picture by which its rise is bound; 1 but for what flashes.wgsl chose.
+    steadied: f32,
+}
+
 /// What the buffers of geometry hold. Of each but the last a fifth is kept for what is drawn coarsely when the rest is full.
 struct Capacity {
     vertices: u32,

@@ -2,7 +2,7 @@
 
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::colour::luminance
-#import lensrunner::gpu::types::FLAG_HOLD_EXPOSURE
+#import lensrunner::gpu::types::{Adaptation, FLAG_HOLD_EXPOSURE}
 
 /// Cells across the picture that is metered: the levels are mixed to what a level of this width would say, so that the exposure does not
 /// jump with the resolution.
@@ -10,8 +10,8 @@ const METERED_WIDTH: f32 = 80.0;
 
 @group(2) @binding(0) var finer: texture_2d<f32>;
 @group(2) @binding(1) var coarser: texture_2d<f32>;
-/// State from the last frame: x: exposure, y: mean log luminance, z: 1 once it has been set; w: 1.
-@group(2) @binding(2) var<storage, read_write> adaptation: vec4<f32>;
+/// That of the last frame.
+@group(2) @binding(2) var<storage, read_write> adaptation: Adaptation;
 
 var<workgroup> sums: array<vec4<f32>, 64>;
 
@@ -54,8 +54,8 @@ fn main(@builtin(local_invocation_index) lane: u32) {
         let key = select(frame.exposure_key_without_disk, frame.exposure_key, any(frame.disk_indices != vec4<u32>(0u)));
         let wanted = clamp(key / metered, frame.least_exposure, frame.greatest_exposure);
         // In stops, like the eye; the first frame begins at the target.
-        let nearer = exp(mix(log(max(adaptation.x, 1e-12)), log(wanted), select(frame.adaptation, 1.0, adaptation.z == 0.0)));
-        let exposure = select(nearer, adaptation.x, (frame.flags & FLAG_HOLD_EXPOSURE) != 0u);
-        adaptation = vec4<f32>(exposure, metered, 1.0, 1.0);
+        let nearer = exp(mix(log(max(adaptation.exposure, 1e-12)), log(wanted), select(frame.adaptation, 1.0, adaptation.known == 0.0)));
+        let exposure = select(nearer, adaptation.exposure, (frame.flags & FLAG_HOLD_EXPOSURE) != 0u);
+        adaptation = Adaptation(exposure, metered, 1.0, 1.0);
     }
 }

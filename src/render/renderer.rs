@@ -126,7 +126,7 @@ impl Renderer {
         let table = blackbody_table();
         let blackbody = TableTexture::of(gpu, "black body", &table);
         // Until the first frame is metered, a middling exposure.
-        let adaptation = storage(gpu, "adaptation", &[[1.0f32, 0.0, 0.0, 0.0]]);
+        let adaptation = storage(gpu, "adaptation", &[types::Adaptation { exposure: 1.0, ..Default::default() }]);
         let mut post_process = PostProcess::new(device, &frame_layout, format);
         let targets = Targets::new(device, size.map(|side| side.max(1)));
         let upscale = Upscale::new(device, &frame_layout, format);
@@ -347,9 +347,12 @@ impl Renderer {
         self.timing.begin();
         self.counted.iter_mut().for_each(DeferredCopy::begin);
         // The own ship is lit by the exposure of the frame before, and stars that would not have been visible then are left out.
-        let [exposure, known] = [offset_of!(types::Frame, last_exposure), offset_of!(types::Frame, exposure_known)];
-        encoder.copy_buffer_to_buffer(&self.adaptation, 0, &self.frame, exposure as u64, 4);
-        encoder.copy_buffer_to_buffer(&self.adaptation, 8, &self.frame, known as u64, 4);
+        for (from, to) in [
+            (offset_of!(types::Adaptation, exposure), offset_of!(types::Frame, last_exposure)),
+            (offset_of!(types::Adaptation, known), offset_of!(types::Frame, exposure_known)),
+        ] {
+            encoder.copy_buffer_to_buffer(&self.adaptation, from as u64, &self.frame, to as u64, 4);
+        }
         let disk = self.disk.as_ref().filter(|_| self.has_disk);
         let shown = Shown {
             geometry: &self.geometry,

@@ -9,11 +9,13 @@ const SHIFTS: u32 = 16u;
 
 struct Lines {
     /// Linear sRGB of a kilorayleigh of each line at each frequency ratio, the least first, in the unit of the picture's luminance.
-    colours: array<vec4<f32>, 4u * SHIFTS>,
-    /// Steps from the least ratio: in the middle of the screen, by its coordinates right and up (NDC).
-    steps: vec4<f32>,
+    colours: array<vec3<f32>, 4u * SHIFTS>,
+    /// By how many steps the ratio changes with the coordinates of the screen right and up (NDC).
+    slope: vec2<f32>,
     /// Width and height of a lit tile in NDC.
-    tile: vec4<f32>,
+    tile: vec2<f32>,
+    /// Steps from the least ratio to that in the middle of the screen.
+    middle: f32,
 }
 
 @group(1) @binding(0) var<uniform> lines_seen: Lines;
@@ -29,6 +31,6 @@ fn lit_corner(i: u32, instance: u32) -> vec2<f32> {
     let kind = (lit.x & 1u) + 2u * (lit.y & 1u);
     let k = i % 6u;
     let corner = vec2<f32>(vec2<bool>((k & 1u) == 1u, (k >= 2u) & (k != 3u)) & vec2<bool>(kind == instance % 4u));
-    let down = (vec2<f32>(tile) + corner) * lines_seen.tile.xy;
+    let down = (vec2<f32>(tile) + corner) * lines_seen.tile;
     return vec2<f32>(down.x - 1.0, 1.0 - down.y);
 }

@@ -20,9 +20,9 @@ struct Screen {
 
 /// The colour of a line at a place on the screen (NDC).
 fn colour_at(line: u32, place: vec2<f32>) -> vec3<f32> {
-    let steps = clamp(lines_seen.steps.x + dot(lines_seen.steps.yz, place), 0.0, f32(SHIFTS - 1u));
+    let steps = clamp(lines_seen.middle + dot(lines_seen.slope, place), 0.0, f32(SHIFTS - 1u));
     let below = min(u32(steps), SHIFTS - 2u);
-    return mix(lines_seen.colours[4u * below + line].xyz, lines_seen.colours[4u * below + 4u + line].xyz, vec3<f32>(steps - f32(below)));
+    return mix(lines_seen.colours[4u * below + line], lines_seen.colours[4u * below + 4u + line], vec3<f32>(steps - f32(below)));
 }
 
 @vertex

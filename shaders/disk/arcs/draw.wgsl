@@ -10,14 +10,26 @@
 
 /// `DiskVertex` from the vertex buffer.
 struct SeenDisk {
-    @location(0) apparent: vec4<f32>,
-    @location(1) gas: vec4<f32>,
-    @location(2) more: vec4<f32>,
-    @location(3) bend: vec4<f32>,
+    @location(0) apparent: vec3<f32>,
+    @location(1) path: f32,
+    @location(2) turns: f32,
+    @location(3) pattern_height: f32,
+    @location(4) ln_temperature: f32,
+    @location(5) depth: f32,
+    @location(6) ln_g: f32,
+    @location(7) cosine: f32,
+    @location(8) filled: f32,
+    @location(9) from_middle: f32,
+    @location(10) half_width: f32,
+    @location(11) bend_height: f32,
+    @location(12) bend_light: f32,
+    @location(13) bend_depth: f32,
+    @location(14) side: f32,
 }
 
-/// What a vertex of an arc hands on: Gas, with the height in the pattern in place of the radius, and AcrossRing. It is repeated here
-/// because what one stage hands to the next may hold no structures, and polygons do not need the rest.
+/// What a vertex of an arc hands on: Gas, with the height in the pattern in place of the radius and, in order 1, the share of the area that
+/// has gas in place of the distance from the middle; and AcrossRing. It is repeated here because what one stage hands to the next may hold
+/// no structures, and polygons do not need the rest.
 struct ArcGas {
     @builtin(position) position: vec4<f32>,
     @location(0) even: vec4<f32>,
@@ -40,11 +52,11 @@ struct AcrossRing {
 
 @vertex
 fn vertex(seen: SeenDisk) -> ArcGas {
-    let light = gas_light(seen.gas.z - seen.more.x, seen.more.x);
-    let gas = gas_at(clip_position(seen.apparent.xyz), seen.gas.x, seen.gas.y, seen.apparent.w, seen.gas.w, light, seen.more.zw,
-        seen.more.y);
-    let bend = seen.bend.xyz * vec3<f32>(1.0, 1.44269504, 1.0);
-    return ArcGas(gas.position, gas.even, gas.odd, gas.light, vec4<f32>(gas.slope.xyz, seen.gas.y), gas.seen, seen.bend.w, bend);
+    let light = gas_light(seen.ln_temperature - seen.ln_g, seen.ln_g);
+    let thin = vec2<f32>(select(seen.from_middle, seen.filled, seen.half_width > WIDE), seen.half_width);
+    let gas = gas_at(clip_position(seen.apparent), seen.turns, seen.pattern_height, seen.path, seen.depth, light, thin, seen.cosine);
+    let bend = vec3<f32>(seen.bend_height, seen.bend_light * 1.44269504, seen.bend_depth);
+    return ArcGas(gas.position, gas.even, gas.odd, gas.light, vec4<f32>(gas.slope.xyz, seen.pattern_height), gas.seen, seen.side, bend);
 }
 
 /// The gas of a ring at a pixel.

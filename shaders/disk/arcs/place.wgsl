@@ -2,10 +2,10 @@
 
 // Projection of a point of the disk, and its light.
 
-#import lensrunner::disk::arcs::bindings::{table_bend, circles, disk_counters}
+#import lensrunner::disk::arcs::bindings::{Bend, circles, disk_counters, table_bend}
 #import lensrunner::disk::motion::{disk_frequency, disk_slant, LEAST_COSINE}
 #import lensrunner::disk::sigma::Bearing
-#import lensrunner::disk::types::{coverage, disk, DiskVertex, own_share}
+#import lensrunner::disk::types::{coverage, disk, DiskVertex, mixed_gas, own_share}
 #import lensrunner::geometry::clip::finite_vector
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::FLAG_DOPPLER
@@ -61,18 +61,26 @@ fn streak_variance() -> f32 {
     return VARIANCE * 0.0625 * disk.contrast * disk.contrast;
 }
 
-/// A mix of the mean gas of a thin image (x: ln of the seen temperature, y: optical depth along the ray; without streaks) and a circle's
-/// own gas, of which the share is `share`. Light and the stopped share are mixed: mixing logarithms lost up to 40 % of the light of an
-/// image one to two pixels wide.
-fn between(mean: vec2<f32>, own: vec2<f32>, share: f32) -> vec2<f32> {
+/// Gas as it is seen.
+struct SeenGas {
+    /// ln of the seen temperature in K.
+    ln_temperature: f32,
+    /// Optical depth.
+    depth: f32,
+    ln_g: f32,
+}
+
+/// A mix of the mean gas of a thin image (without streaks) and a circle's own gas, of which the share is `share`; depths are along the ray.
+/// Light and the stopped share are mixed: mixing logarithms lost up to 40 % of the light of an image one to two pixels wide.
+fn between(mean: SeenGas, own: SeenGas, share: f32) -> SeenGas {
     let v = streak_variance();
-    let stops = 1.0 - exp(-vec2<f32>(mean.y, own.y));
-    let x = min(GREEN / exp(vec2<f32>(mean.x, own.x)), vec2<f32>(80.0));
+    let stops = 1.0 - exp(-vec2<f32>(mean.depth, own.depth));
+    let x = min(GREEN / exp(vec2<f32>(mean.ln_temperature, own.ln_temperature)), vec2<f32>(80.0));
     let light = stops * exp(vec2<f32>(-x.x, mean_light(x.y, v)));
     let stopped = mix(stops.x, stops.y, share);
     // Streaks that give ln T the variance share·v are laid over it.
     let all = mean_light_of(log(clamp(mix(light.x, light.y, share) / max(stopped, 1e-6), 1e-37, 0.999)), share * v);
-    return vec2<f32>(log(GREEN / max(all, 1e-3)), -log(1.0 - min(stopped, 0.999)));
+    return SeenGas(log(GREEN / max(all, 1e-3)), -log(1.0 - min(stopped, 0.999)), mix(mean.ln_g, own.ln_g, share));
 }
 
 /// Between which of THIN_AZIMUTHS azimuths an azimuth (rad from the camera's) lies: the one before (x), and the share of the way to the
@@ -84,12 +92,12 @@ fn among_azimuths(azimuth: f32) -> vec2<f32> {
 }
 
 /// The mean gas of a thin image, whose width is seen by one ray: gas without streaks that is as bright as the image in the mean over its
-/// width and over streaks. Returns x: ln of the seen temperature in K; y: optical depth along the ray; z: ln g. `arriving` is the light's
-/// rain-frame momentum at the camera, `frequency` its frequency there, `observed` that in the camera's frame. The image has the circles
-/// from `first` on, for all azimuths; of those at `azimuth` (rad from the camera's) `count` are used. The transmission of the second image
-/// as it is drawn (`before`, see [`second_before`]) is corrected to the exact one.
+/// width and over streaks; its depth is along the ray. `arriving` is the light's rain-frame momentum at the camera, `frequency` its
+/// frequency there, `observed` that in the camera's frame. The image has the circles from `first` on, for all azimuths; of those at
+/// `azimuth` (rad from the camera's) `count` are used. The transmission of the second image as it is drawn (`before`) is corrected to the
+/// exact one.
 fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency: f32, observed: f32, share: f32,
-    before: vec2<f32>) -> vec3<f32> {
+    before: Before) -> SeenGas {
     let n = frame.outward;
     let energy = frequency - frame.river_speed * dot(n, arriving);
     let angular = cross(n * frame.camera_radius, arriving);
@@ -100,28 +108,27 @@ fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency
     var shifted = 0.0;
     let place = among_azimuths(azimuth);
     let here = first + THIN_SAMPLES * u32(place.x);
-    let t = vec4<f32>(place.y);
+    let t = place.y;
     for (var k = here; k < min(here + count, arrayLength(&circles) - THIN_SAMPLES); k++) {
-        var there = circles[k];
-        let next = circles[k + THIN_SAMPLES];
-        there.gas = mix(there.gas, next.gas, t);
-        there.motion = mix(there.motion, next.motion, t);
-        there.place = mix(there.place, next.place, t);
+        let a = circles[k];
+        let b = circles[k + THIN_SAMPLES];
+        let gas = mixed_gas(a.gas, b.gas, t);
         // Light of these orders has been round the hole: it left inward from outside the photon sphere and outward from inside.
-        let found = disk_frequency(energy, angular, there.gas.x, there.gas.x < 1.5, there.motion.xy);
+        let found = disk_frequency(energy, angular, gas.radius, gas.radius < 1.5, vec2<f32>(gas.outward, gas.along));
         let ratio = clamp(observed / found.x, 1e-3, 1e3);
-        let temperature = exp(there.gas.z) * select(1.0, ratio, shifts);
-        let depth = there.gas.w / max(found.y, LEAST_COSINE);
+        let temperature = exp(gas.ln_temperature) * select(1.0, ratio, shifts);
+        let depth = gas.depth / max(found.y, LEAST_COSINE);
         let x = GREEN / temperature;
         // Density is the fourth power of the temperature.
-        let nearer = there.place;
-        let slanted = disk_frequency(energy, angular, nearer.w, nearer.w < 1.5, nearer.yz).y;
-        let through = nearer.x / max(slanted, LEAST_COSINE);
+        let radius = mix(a.nearer_radius, b.nearer_radius, t);
+        let motion = mix(vec2<f32>(a.nearer_outward, a.nearer_along), vec2<f32>(b.nearer_outward, b.nearer_along), vec2<f32>(t));
+        let slanted = disk_frequency(energy, angular, radius, radius < 1.5, motion).y;
+        let through = mix(a.nearer_depth, b.nearer_depth, t) / max(slanted, LEAST_COSINE);
         // The mean over streaks, by three points of a normal distribution.
         let denser = exp(4.0 * sqrt(3.0 * v));
         // In the second image gas has `share` of the area.
         let passed = 1.0 - share * (1.0 - (4.0 * exp(-through) + exp(-through * denser) + exp(-through / denser)) / 6.0);
-        let drawn = 1.0 - before.x - before.y * (1.0 - passed);
+        let drawn = 1.0 - before.all - before.own * (1.0 - passed);
         let shown = (1.0 - exp(-depth * exp(4.0 * brightest(x, v)))) * exp(mean_light(x, v))
             * (max(passed, LEAST_PASSED) / max(drawn, LEAST_PASSED));
         light += shown;
@@ -130,7 +137,7 @@ fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency
     }
     let own = max(stopped, 1e-6);
     let x = -log(clamp(light / own, 1e-37, 0.999));
-    return vec3<f32>(log(GREEN / max(x, 1e-3)), -log(1.0 - min(own / f32(THIN_SAMPLES), 0.999)), shifted / max(light, 1e-37));
+    return SeenGas(log(GREEN / max(x, 1e-3)), -log(1.0 - min(own / f32(THIN_SAMPLES), 0.999)), shifted / max(light, 1e-37));
 }
 
 /// Half the width that a thin image is drawn with, in pixels.
@@ -138,16 +145,24 @@ fn drawn_half(half: f32) -> f32 {
     return half + (disk.least_width + SOFT) * (1.0 - own_share(half));
 }
 
-/// What the second image, where it is drawn thin, stops of light that comes through the gas of its circles: x of all light, y of the light
-/// that this gas itself stops. Light of the third image crosses the second at one point, near the photon sphere; but a pixel shows the mean
-/// of the second's gas, and covers what is beside the image as well. The third image is so thin that all of it is `d` pixels from the
-/// middle of the second, which has the half width `half`, under a tent, and whose gas has the mean optical depth `depth`.
-fn second_before(d: f32, half: f32, depth: f32) -> vec2<f32> {
+/// What the second image, where it is drawn thin, stops of light that comes through the gas of its circles.
+struct Before {
+    /// Of all light.
+    all: f32,
+    /// Of the light that this gas itself stops.
+    own: f32,
+}
+
+/// Light of the third image crosses the second at one point, near the photon sphere; but a pixel shows the mean of the second's gas, and
+/// covers what is beside the image as well. The third image is so thin that all of it is `d` pixels from the middle of the second, which
+/// has the half width `half`, under a tent, whose gas has the mean optical depth `depth`, and which has gas on the share `share` of its
+/// area.
+fn second_before(d: f32, half: f32, depth: f32, share: f32) -> Before {
     // Over the tent by three points with its variance, 1/6.
     let aside = 0.57735027 * disk.least_width;
     let covered = 0.5 * coverage(d, half) + 0.25 * (coverage(d - aside, half) + coverage(d + aside, half));
     let own = own_share(half);
-    return covered * vec2<f32>((1.0 - own) * (1.0 - exp(-depth)), own);
+    return Before(covered * ((1.0 - own) * (1.0 - exp(-depth))) * share, covered * own);
 }
 
 /// A ray between two rays that are so close that everything is linear.
@@ -169,7 +184,8 @@ struct HalfPlane {
     side: vec3<f32>,
     reach: f32,
     /// sin² and cos² of θ/2, free of cancellation.
-    halves: vec2<f32>,
+    sine_squared: f32,
+    cosine_squared: f32,
 }
 
 fn half_plane_of(at: Bearing) -> HalfPlane {
@@ -178,7 +194,7 @@ fn half_plane_of(at: Bearing) -> HalfPlane {
     let halves = select(vec2<f32>(0.5 - 0.5 * c, 0.5 * s * s / (1.0 - c)), vec2<f32>(0.5 * s * s / (1.0 + c), 0.5 + 0.5 * c), c > 0.0);
     let up = -disk.camera_sine * c;
     let reach = sqrt(up * up + s * s);
-    return HalfPlane((disk.upwards * up + disk.sideways * s) / max(reach, 1e-12), reach, halves);
+    return HalfPlane((disk.upwards * up + disk.sideways * s) / max(reach, 1e-12), reach, halves.x, halves.y);
 }
 
 /// The rays that a vertex needs.
@@ -186,11 +202,17 @@ struct Rays {
     /// That of its circle; and that of the circle if the gap beside it is closed.
     ray: LensRay,
     in_gap: LensRay,
-    /// Viewing angles. Order 1: of the circle, across its gap, a little aside. Else: of the circle, and where the whole disk begins and
-    /// ends.
-    psi: vec3<f32>,
-    /// Where the second image begins and ends beside the third: the same ray crosses the plane on the other side of the hole.
-    second: vec2<f32>,
+    /// Viewing angles: of the circle;
+    circle: f32,
+    /// in order 1 across its gap, and a little aside;
+    gap: f32,
+    aside: f32,
+    /// else where the whole disk begins and ends,
+    begin: f32,
+    end: f32,
+    /// and where the second image does beside the third: the same ray crosses the plane on the other side of the hole.
+    second_begin: f32,
+    second_end: f32,
     valid: bool,
     /// Whether the third image is behind the second.
     behind_second: bool,
@@ -205,23 +227,22 @@ fn step_aside(at: Bearing) -> f32 {
 /// known: the third point is a little aside. The lookup is called from this one place.
 fn rays_of(row: u32, at: Bearing, plane: HalfPlane) -> Rays {
     let circle = circles[row];
-    let order = circle.rows.x;
-    let gap = circle.place.z;
+    let order = circle.order;
     let reach = plane.reach;
     let step = step_aside(at);
     var rays: Rays;
     rays.valid = true;
     rays.behind_second = order == 3u;
-    for (var k = 0u; k < select(select(3u, select(1u, 3u, gap > 0.0), order == 1u), 5u, order == 3u); k++) {
+    for (var k = 0u; k < select(select(3u, select(1u, 3u, circle.gap > 0.0), order == 1u), 5u, order == 3u); k++) {
         let beside = k == 1u && order == 1u;
         let aside = select(0.0, step, k == 2u && order == 1u);
-        let which = select(select(circle.rows.z, circle.rows.y, k == 1u || k == 3u), row, k == 0u || order == 1u);
+        let which = select(select(circle.last_row, circle.first_row, k == 1u || k == 3u), row, k == 0u || order == 1u);
         let opposite = k > 2u;
         let there = circles[which];
-        let r = select(there.gas.x, there.place.y, beside);
+        let r = select(there.gas.radius, there.gap_radius, beside);
         let ahead = select(at.cosine, -at.cosine, opposite) * disk.camera_cosine;
-        let along = there.place.x + (r - there.gas.x) * disk.camera_cosine - 2.0 * r * disk.camera_cosine
-            * select(plane.halves.x, plane.halves.y, opposite);
+        let along = there.beyond + (r - there.gas.radius) * disk.camera_cosine - 2.0 * r * disk.camera_cosine
+            * select(plane.sine_squared, plane.cosine_squared, opposite);
         let found = lens_lookup_at(along - r * aside * reach, r * (reach + aside * ahead), r * (ahead - aside * reach),
             select(order, 2u, opposite));
         let seen = found.valid && found.delay > 0.0;
@@ -230,16 +251,20 @@ fn rays_of(row: u32, at: Bearing, plane: HalfPlane) -> Rays {
         let angle_seen = angle(found.sin_psi, found.cos_psi, 1.0);
         if k == 0u {
             rays.ray = found;
-            rays.psi.x = angle_seen;
-        } else if k == 1u {
+            rays.circle = angle_seen;
+        } else if beside {
             rays.in_gap = found;
-            rays.psi.y = angle_seen;
+            rays.gap = angle_seen;
+        } else if k == 1u {
+            rays.begin = angle_seen;
+        } else if order == 1u {
+            rays.aside = angle_seen;
         } else if k == 2u {
-            rays.psi.z = angle_seen;
+            rays.end = angle_seen;
         } else if k == 3u {
-            rays.second.x = angle_seen;
+            rays.second_begin = angle_seen;
         } else {
-            rays.second.y = angle_seen;
+            rays.second_end = angle_seen;
         }
     }
     return rays;
@@ -248,14 +273,14 @@ fn rays_of(row: u32, at: Bearing, plane: HalfPlane) -> Rays {
 /// How far a gap beside a circle of order 1 is open, 0 to 1.
 fn open_gap(row: u32, at: Bearing, plane: HalfPlane, rays: Rays) -> f32 {
     let circle = circles[row];
-    let gap = circle.place.z;
+    let gap = circle.gap;
     let n = frame.outward;
     let ray = rays.ray;
     let pixel = frame.pixel * pixel_of(n * ray.cos_psi + plane.side * ray.sin_psi, plane.side * ray.cos_psi - n * ray.sin_psi);
     // Across the circle, from its direction on the screen: towards the axis and round it per radian of θ.
-    let across = (rays.psi.z - rays.psi.x) / step_aside(at) * disk.camera_cosine * at.sine / max(plane.reach, 1e-12);
+    let across = (rays.aside - rays.circle) / step_aside(at) * disk.camera_cosine * at.sine / max(plane.reach, 1e-12);
     let way = vec2<f32>(across, ray.sin_psi * disk.steepness / max(plane.reach * plane.reach, 1e-12));
-    let dark = circle.place.w * abs(rays.psi.x - rays.psi.y) * abs(way.y) / max(length(way), 1e-12) / pixel;
+    let dark = circle.gap_sides * abs(rays.circle - rays.gap) * abs(way.y) / max(length(way), 1e-12) / pixel;
     let ring = dark * (1.0 - gap) / gap;
     return min(smoothstep(SEEN_GAP.x, SEEN_GAP.y, dark), 1.0 - clamp((LEAST_RING - ring) / max(dark, 1e-6), 0.0, 1.0));
 }
@@ -265,83 +290,74 @@ struct Apparition {
     /// The direction of the vertex, and that where all of a thin image is seen.
     at: vec3<f32>,
     all_at: vec3<f32>,
-    /// Order 1, which is wide: the share of the area with gas, and a great number. Else: the distance from the image's middle and half its
-    /// width, in pixels; their gaps are closed.
-    thin: vec2<f32>,
+    /// The distance from the image's middle and half its width, in pixels; of order 1, which is wide, 0 and a great number.
+    from_middle: f32,
+    half_width: f32,
     /// For the third image: distance of its middle from that of the second image, and half the width of the second, in pixels.
-    nearer: vec2<f32>,
+    from_second: f32,
+    second_half_width: f32,
 }
 
-/// `turn` is −1 where the image is on the other side of the axis; `share` that of the ring's area that has gas.
-fn apparition_of(order: u32, plane: HalfPlane, rays: Rays, turn: f32, share: f32) -> Apparition {
+/// `turn` is −1 where the image is on the other side of the axis.
+fn apparition_of(order: u32, plane: HalfPlane, rays: Rays, turn: f32) -> Apparition {
     let n = frame.outward;
     let ray = rays.ray;
     let side = plane.side;
     let seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
     if order == 1u {
-        return Apparition(seen_at, seen_at, vec2<f32>(share, 1e6), vec2<f32>(0.0, 1e6));
+        return Apparition(seen_at, seen_at, 0.0, 1e6, 0.0, 1e6);
     }
     // Pixels by the size of one at this place of the picture.
     let pixel = frame.pixel * pixel_of(seen_at, side * (turn * ray.cos_psi) - n * ray.sin_psi);
-    let half = 0.5 * abs(rays.psi.z - rays.psi.y) / pixel;
-    let middle = 0.5 * (rays.psi.y + rays.psi.z);
-    let d = clamp((rays.psi.x - middle) / (pixel * max(half, 1e-4)), -1.0, 1.0) * drawn_half(half);
-    let nearer = vec2<f32>(middle - 0.5 * (rays.second.x + rays.second.y), 0.5 * abs(rays.second.y - rays.second.x)) / pixel;
+    let half = 0.5 * abs(rays.end - rays.begin) / pixel;
+    let middle = 0.5 * (rays.begin + rays.end);
+    let d = clamp((rays.circle - middle) / (pixel * max(half, 1e-4)), -1.0, 1.0) * drawn_half(half);
     let moved = middle + d * pixel;
     let seen_turn = sine_cosine(moved);
     let all_turn = sine_cosine(middle);
-    return Apparition(n * seen_turn.y + side * (turn * seen_turn.x), n * all_turn.y + side * (turn * all_turn.x), vec2<f32>(d, half),
-        nearer);
+    return Apparition(n * seen_turn.y + side * (turn * seen_turn.x), n * all_turn.y + side * (turn * all_turn.x), d, half,
+        (middle - 0.5 * (rays.second_begin + rays.second_end)) / pixel, 0.5 * abs(rays.second_end - rays.second_begin) / pixel);
 }
 
-/// The seen gas of a vertex.
-struct SeenGas {
-    /// x: ln of the seen temperature in K, y: optical depth along the disk's axis.
-    shown: vec2<f32>,
-    ln_g: f32,
-}
-
-/// Mixes the gas of a circle, `own`, with the mean gas of its image where that is thin. `azimuth` is that from the camera's, `slant` the
-/// way through the disk along the ray over that along its axis.
+/// Mixes the gas of a circle, `own`, with the mean gas of its image where that is thin; depths are along the disk's axis. `azimuth` is that
+/// from the camera's, `slant` the way through the disk along the ray over that along its axis.
 fn seen_gas(row: u32, own: SeenGas, slant: f32, azimuth: f32, rays: Rays, seen: Apparition, share: f32) -> SeenGas {
     let circle = circles[row];
-    let own_part = own_share(seen.thin.y);
+    let own_part = own_share(seen.half_width);
     let shifts = (frame.flags & FLAG_DOPPLER) != 0u;
     let coming = -seen.all_at * rays.ray.frequency;
     let seen_as = camera_doppler_of(seen.all_at) * rays.ray.frequency;
     // Software drivers skip a loop without steps, but run through every branch.
-    let is_behind = rays.behind_second && own_share(seen.nearer.y) < 1.0;
-    let second_first = circle.rows.w - select(0u, THIN_SAMPLES * THIN_AZIMUTHS, circle.rows.x == 3u);
+    let is_behind = rays.behind_second && own_share(seen.second_half_width) < 1.0;
+    let second_first = circle.first_sample - select(0u, THIN_SAMPLES * THIN_AZIMUTHS, circle.order == 3u);
     let hiding = mean_gas(second_first, select(0u, THIN_SAMPLES, is_behind), HALF_TURN - azimuth, coming, rays.ray.frequency, seen_as,
-        share, vec2<f32>(0.0, 1.0)).y;
-    let before = select(vec2<f32>(0.0, 1.0), second_before(seen.nearer.x, seen.nearer.y, hiding) * vec2<f32>(share, 1.0), is_behind);
-    let mean = mean_gas(circle.rows.w, select(THIN_SAMPLES, 0u, own_part == 1.0), azimuth, coming, rays.ray.frequency, seen_as, share,
+        share, Before(0.0, 1.0)).depth;
+    var before = Before(0.0, 1.0);
+    if is_behind {
+        before = second_before(seen.from_second, seen.second_half_width, hiding, share);
+    }
+    let mean = mean_gas(circle.first_sample, select(THIN_SAMPLES, 0u, own_part == 1.0), azimuth, coming, rays.ray.frequency, seen_as, share,
         before);
     var gas = own;
     if own_part < 1.0 {
-        let along = between(vec2<f32>(mean.x + select(mean.z, 0.0, shifts), mean.y), vec2<f32>(own.shown.x, own.shown.y * slant), own_part);
-        gas.shown = vec2<f32>(along.x, along.y / max(slant, 1e-6));
-        gas.ln_g = mix(mean.z, own.ln_g, own_part);
+        let shown = SeenGas(mean.ln_temperature + select(mean.ln_g, 0.0, shifts), mean.depth, mean.ln_g);
+        gas = between(shown, SeenGas(own.ln_temperature, own.depth * slant, own.ln_g), own_part);
+        gas.depth /= max(slant, 1e-6);
     }
     return gas;
 }
 
-/// How streaks change the light of a vertex: `bend` of a circle, of which a thin image shows the share `own`.
-fn bend_of(row: u32, at: Bearing, azimuth: f32, own: f32) -> vec4<f32> {
-    let place = among_azimuths(azimuth);
-    let first_bend = row * THIN_AZIMUTHS + u32(place.x);
-    // What a thin image shows of all of its gas is the same everywhere in it.
-    let bend = mix(table_bend(first_bend), table_bend(first_bend + 1u), vec4<f32>(place.y));
+/// The light of a ring's bend on one side or the other.
+fn bend_light(bend: Bend, at: Bearing, azimuth: f32) -> f32 {
     // Where θ changes its sign both sides have the same light: they meet before the first azimuth and beyond the last.
     let apart = min(min(azimuth / FIRST_AZIMUTH, (HALF_TURN - azimuth) / FROM_LAST_AZIMUTH), 1.0);
-    let brighter = 0.5 * (bend.y + bend.w) + select(0.5, -0.5, at.sine < 0.0) * apart * (bend.y - bend.w);
-    return vec4<f32>(bend.x, own * brighter, own * bend.z, f32((row - circles[row].rows.y) & 1u));
+    return 0.5 * (bend.light + bend.other_light) + select(0.5, -0.5, at.sine < 0.0) * apart * (bend.light - bend.other_light);
 }
 
 /// The vertex of `row` there.
 fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     let circle = circles[row];
-    let order = circle.rows.x;
+    let order = circle.order;
     let n = frame.outward;
     let s = at.sine;
     let c = at.cosine;
@@ -350,7 +366,7 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     var rays = rays_of(row, at, plane);
 
     // Share of the ring's area that has gas: less, by as much as it has grown over its gaps.
-    let gap = circle.place.z;
+    let gap = circle.gap;
     var share = 1.0 - gap;
     if gap > 0.0 && order == 1u {
         let open = open_gap(row, at, plane, rays);
@@ -358,7 +374,7 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
         rays.ray = between_rays(rays.in_gap, rays.ray, open);
     }
     let ray = rays.ray;
-    let seen = apparition_of(order, plane, rays, turn, share);
+    let seen = apparition_of(order, plane, rays, turn);
 
     var vertex: DiskVertex;
     let apparent = (frame.camera_from_rain * vec4<f32>(seen.at * ray.delay, -ray.delay)).xyz;
@@ -366,33 +382,46 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
         if rays.valid {
             atomicAdd(&disk_counters.caught, 1u);
         }
-        vertex.apparent = vec4<f32>(0.0);
         return vertex;
     }
-    vertex.apparent = vec4<f32>(apparent, ray.delay);
+    vertex.apparent = apparent;
+    vertex.path = ray.delay;
 
     // The photon and the gas at the point, rain axes.
     let outward = disk.towards * c + disk.sideways * s;
     let along_orbit = disk.sideways * c - disk.towards * s;
     let tangent = (plane.side * (c * disk.camera_cosine) - n * plane.reach) * turn;
     let leaving = outward * ray.emission_radial - tangent * ray.emission_tangential;
-    let momentum = outward * circle.motion.x + along_orbit * circle.motion.y;
+    let momentum = outward * circle.gas.outward + along_orbit * circle.gas.along;
     let gamma = sqrt(1.0 + dot(momentum, momentum));
     let emitted = max(gamma * ray.emission_frequency - dot(momentum, leaving), 1e-9);
     let observed = camera_doppler_of(seen.at) * ray.frequency;
     let g = clamp(observed / emitted, 1e-3, 1e3);
     let cosine = abs(dot(leaving, disk_normal())) / emitted;
 
-    let turns = (at.theta + cuts_origin() - circle.gas.y) / (2.0 * HALF_TURN);
-    let slant = disk_slant(cosine, ray.delay, circle.motion.z);
+    let slant = disk_slant(cosine, ray.delay, circle.gas.half_height);
     let azimuth = angle(abs(s), c, 1.0);
-    let own = SeenGas(vec2<f32>(circle.gas.z + log(g), circle.gas.w), log(g));
+    let own = SeenGas(circle.gas.ln_temperature + log(g), circle.gas.depth, log(g));
     let gas = seen_gas(row, own, slant, azimuth, rays, seen, share);
     // From near, the slant is computed in each pixel.
     let along_ray = select(slant, 1.0, order <= disk.near_orders);
-    vertex.gas = vec4<f32>(turns, circle.motion.w, gas.shown.x, gas.shown.y * along_ray);
-    vertex.more = vec4<f32>(gas.ln_g, cosine, seen.thin);
-    vertex.bend = bend_of(row, at, azimuth, own_share(seen.thin.y));
+    vertex.turns = (at.theta + cuts_origin() - circle.gas.lead) / (2.0 * HALF_TURN);
+    vertex.pattern_height = circle.gas.pattern_height;
+    vertex.ln_temperature = gas.ln_temperature;
+    vertex.depth = gas.depth * along_ray;
+    vertex.ln_g = gas.ln_g;
+    vertex.cosine = cosine;
+    vertex.filled = share;
+    vertex.from_middle = seen.from_middle;
+    vertex.half_width = seen.half_width;
+    let place = among_azimuths(azimuth);
+    let bend = table_bend(row * THIN_AZIMUTHS + u32(place.x), place.y);
+    // What a thin image shows of all of its gas is the same everywhere in it.
+    let own_part = own_share(seen.half_width);
+    vertex.bend_height = bend.height;
+    vertex.bend_light = own_part * bend_light(bend, at, azimuth);
+    vertex.bend_depth = own_part * bend.depth;
+    vertex.side = f32((row - circle.first_row) & 1u);
     return vertex;
 }
 

@@ -4,7 +4,7 @@
 // triangles.
 
 #import lensrunner::disk::arcs::bindings::{circles, disk_counters, disk_vertices, jobs, segments}
-#import lensrunner::disk::types::{disk, own_share}
+#import lensrunner::disk::types::{disk, Job, own_share, Segments}
 #import lensrunner::gpu::bindings::frame
 
 /// Most segments of an arc.
@@ -19,25 +19,25 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let row = id.x / arcs;
     let arc = id.x % arcs;
     let first = row * disk.columns + 2u * arc;
-    let a = disk_vertices[first].apparent;
-    let m = disk_vertices[first + 1u].apparent;
-    let b = disk_vertices[first + 2u].apparent;
-    if a.w <= 0.0 || m.w <= 0.0 || b.w <= 0.0 {
-        segments[id.x] = vec4<u32>(1u, 0u, 0u, 15u);
+    let a = disk_vertices[first];
+    let m = disk_vertices[first + 1u];
+    let b = disk_vertices[first + 2u];
+    if a.path <= 0.0 || m.path <= 0.0 || b.path <= 0.0 {
+        segments[id.x] = Segments(1u, 0u, 0.0, 15u);
         return;
     }
-    let chord = 0.5 * (a.xyz + b.xyz);
-    let error = atan2(length(cross(m.xyz, chord)), dot(m.xyz, chord));
-    let beyond = sides_beyond(a.xyz, m.xyz, b.xyz, error);
+    let chord = 0.5 * (a.apparent + b.apparent);
+    let error = atan2(length(cross(m.apparent, chord)), dot(m.apparent, chord));
+    let beyond = sides_beyond(a.apparent, m.apparent, b.apparent, error);
     if beyond != 0u {
-        segments[id.x] = vec4<u32>(1u, 0u, bitcast<u32>(error), beyond);
+        segments[id.x] = Segments(1u, 0u, error, beyond);
         return;
     }
     // Thin images are widened to lines, so their chords are held closer: the sag shows against their own width. With half the budget a line
     // half a pixel to two wide was uneven by a tenth, with this by a sixteenth. Wide images of orders 2 and 3 are not lines, but all of the
     // disk is narrow in them: with the whole budget gas was moved so far that a ball behind it had 0.52 of its light left instead of 0.64.
-    let half = min(min(disk_vertices[first].more.w, disk_vertices[first + 1u].more.w), disk_vertices[first + 2u].more.w);
-    let budget = disk.error_budget * select(mix(0.35, 0.6, own_share(half)), 1.0, circles[row].rows.x == 1u);
+    let half = min(min(a.half_width, m.half_width), b.half_width);
+    let budget = disk.error_budget * select(mix(0.35, 0.6, own_share(half)), 1.0, circles[row].order == 1u);
     var count = u32(clamp(ceil(sqrt(error / budget)), 1.0, f32(MOST_SEGMENTS)));
     var extra = 0u;
     if count > 2u {
@@ -49,11 +49,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             count = 2u;
         } else {
             for (var i = 1u; i < count; i++) {
-                jobs[extra + i - 1u] = vec4<u32>(id.x, i, count, 0u);
+                jobs[extra + i - 1u] = Job(id.x, i, count);
             }
         }
     }
-    segments[id.x] = vec4<u32>(count, extra, bitcast<u32>(error), 0u);
+    segments[id.x] = Segments(count, extra, error, 0u);
 }
 
 /// The sides of the screen, as bits, that an arc is surely beyond: its ends and its middle all by more than it bends.

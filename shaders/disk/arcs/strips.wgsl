@@ -2,7 +2,7 @@
 // straight.
 
 #import lensrunner::disk::arcs::bindings::{circles, disk_counters, disk_indices, disk_vertices, end_of, ring_of, segments}
-#import lensrunner::disk::types::disk
+#import lensrunner::disk::types::{disk, Segments}
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -12,24 +12,23 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let ring = ring_of(id.x / arcs);
     let arc = id.x % arcs;
-    let inner = segments[ring.x * arcs + arc];
-    let outer = segments[ring.y * arcs + arc];
-    if (inner.w & outer.w) != 0u {
+    let inner = segments[ring.inner * arcs + arc];
+    let outer = segments[ring.outer * arcs + arc];
+    if (inner.beyond & outer.beyond) != 0u {
         return;
     }
-    let first_inner = ring.x * disk.columns + 2u * arc;
-    let first_outer = ring.y * disk.columns + 2u * arc;
+    let first_inner = ring.inner * disk.columns + 2u * arc;
+    let first_outer = ring.outer * disk.columns + 2u * arc;
     var nearest = 1e9;
     for (var k = 0u; k < 3u; k++) {
-        nearest = min(nearest, min(disk_vertices[first_inner + k].apparent.w, disk_vertices[first_outer + k].apparent.w));
+        nearest = min(nearest, min(disk_vertices[first_inner + k].path, disk_vertices[first_outer + k].path));
     }
-    if nearest <= 0.0 || max(circles[ring.x].gas.w, circles[ring.y].gas.w) < 1e-4 {
+    if nearest <= 0.0 || max(circles[ring.inner].gas.depth, circles[ring.outer].gas.depth) < 1e-4 {
         return;
     }
-    let total = inner.x + outer.x;
-    let order = ring.z;
-    let beyond = order == 1u && disk.near_orders > 0u && nearest > disk.close;
-    let list = select(order - 1u, 3u, beyond);
+    let total = inner.count + outer.count;
+    let beyond = ring.order == 1u && disk.near_orders > 0u && nearest > disk.close;
+    let list = select(ring.order - 1u, 3u, beyond);
     let end = end_of(list);
     var slot = disk.regions[list] + atomicAdd(&disk_counters.indices[list], 3u * total);
     if slot + 3u * total > end {
@@ -44,11 +43,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var i = 0u;
     var j = 0u;
     while i + j < total {
-        // Step on the circle whose next point comes first; i/inner.x < j/outer.x in whole numbers.
+        // Step on the circle whose next point comes first; i/inner.count < j/outer.count in whole numbers.
         let a = point(first_inner, inner, i);
         let b = point(first_outer, outer, j);
         var c = 0u;
-        if i < inner.x && (j == outer.x || (i + 1u) * outer.x <= (j + 1u) * inner.x) {
+        if i < inner.count && (j == outer.count || (i + 1u) * outer.count <= (j + 1u) * inner.count) {
             i += 1u;
             c = point(first_inner, inner, i);
         } else {
@@ -63,15 +62,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 }
 
 /// The vertex of point i of an arc of a circle.
-fn point(first: u32, segment: vec4<u32>, i: u32) -> u32 {
+fn point(first: u32, arc: Segments, i: u32) -> u32 {
     if i == 0u {
         return first;
     }
-    if i == segment.x {
+    if i == arc.count {
         return first + 2u;
     }
-    if segment.x == 2u {
+    if arc.count == 2u {
         return first + 1u;
     }
-    return disk.columns * disk.rows + segment.y + i - 1u;
+    return disk.columns * disk.rows + arc.first + i - 1u;
 }

@@ -4,7 +4,7 @@
 #import lensrunner::disk::arcs::bindings::{cuts, disk_counters, disk_vertices, jobs}
 #import lensrunner::disk::arcs::place::disk_vertex
 #import lensrunner::disk::sigma::bearing
-#import lensrunner::disk::types::disk
+#import lensrunner::disk::types::{disk, Job}
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -15,17 +15,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= select(grid, min(atomicLoad(&disk_counters.vertices), disk.vertex_room - grid), halved) {
         return;
     }
-    // x: arc of a circle, counted along all rows; y of z: how far along it.
-    var job = vec3<u32>(id.x / columns * arcs + id.x % columns / 2u, id.x % columns % 2u, 2u);
+    var job = Job(id.x / columns * arcs + id.x % columns / 2u, id.x % columns % 2u, 2u);
     var slot = id.x;
     if halved {
-        job = jobs[id.x].xyz;
+        job = jobs[id.x];
         slot += grid;
     } else if id.x % columns == columns - 1u {
         // The last column ends the last arc.
-        job = vec3<u32>(job.x - 1u, 2u, 2u);
+        job = Job(job.arc - 1u, 2u, 2u);
     }
-    let cut = job.x % arcs;
-    let sigma = mix(cuts[cut], cuts[cut + 1u], f32(job.y) / f32(job.z));
-    disk_vertices[slot] = disk_vertex(job.x / arcs, bearing(sigma, disk.steepness));
+    let cut = job.arc % arcs;
+    let sigma = mix(cuts[cut], cuts[cut + 1u], f32(job.number) / f32(job.count));
+    disk_vertices[slot] = disk_vertex(job.arc / arcs, bearing(sigma, disk.steepness));
 }

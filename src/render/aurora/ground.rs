@@ -165,7 +165,7 @@ impl Ground {
             let at = place(row, k);
             // As `night` in shaders/aurora/ends.wgsl.
             let night = 1.0 + midnight.dot(at) / at.length().max(1.0);
-            (at, night * area * self.glow.brightness(f64::from(row[k][2])))
+            (at, night * area * self.glow.brightness(f64::from(row[k].flux)))
         }))
     }
 

@@ -78,15 +78,15 @@ impl Levels {
     }
 }
 
-/// From normalised device coordinates of the screen to those of a level with its margin: factors and sums.
-fn place(size: [u32; 2], level: u32) -> [f32; 4] {
+/// From normalised device coordinates of the screen to those of a level with its margin: scale and offset.
+fn place(size: [u32; 2], level: u32) -> [[f32; 2]; 2] {
     let whole = whole(size, level).map(|side| side as f32);
     let margin = if level == 0 { 0.0 } else { MARGIN as f32 };
     let [width, height] = size.map(|side| side as f32 / (1u32 << level) as f32);
     let scale = [width / whole[0], height / whole[1]];
     // Rows of pixels count downwards, normalised device coordinates upwards.
     let offset = [(width + 2.0 * margin) / whole[0] - 1.0, 1.0 - (height + 2.0 * margin) / whole[1]];
-    [scale[0], scale[1], offset[0], offset[1]]
+    [scale, offset]
 }
 
 /// Number of sizes of depth tiles, for which the least and greatest depth are known; as in walk.wgsl.

@@ -21,7 +21,7 @@ pub use animation::streaks::{RED_EVERY, SMOOTH};
 pub use animation::{AuroraAnimation, AuroraFrame, RAYS_PERIOD};
 pub use colours::Colours;
 pub use levels::{DEPTH_TILES, LEAST_DEPTH_TILE, PYRAMID};
-pub use pass::Aurora;
+pub use pass::{Aurora, CHORD_END_BYTES, REFERENCE_BYTES, STROKE_BYTES};
 pub use shift::SHIFTS;
 
 use bytemuck::{Pod, Zeroable};
@@ -31,11 +31,25 @@ use bytemuck::{Pod, Zeroable};
 #[repr(C)]
 #[allow(missing_docs, reason = "documented once, in shaders/aurora/streaks.wgsl")]
 pub struct AuroraSettings {
-    pub counts: [u32; 4],
-    pub history: [u32; 4],
-    pub clock: [f32; 4],
-    pub strokes: [f32; 4],
-    pub heights: [f32; 4],
+    pub streaks: u32,
+    pub chords: u32,
+    pub parts: u32,
+    pub row_nodes: u32,
+    pub newest_row: u32,
+    pub segments: u32,
+    pub room: u32,
+    pub flags: u32,
+    pub row_seconds: f32,
+    pub ahead: f32,
+    pub clock: f32,
+    pub contrast: f32,
+    pub point: f32,
+    pub levels: u32,
+    pub midnight: [f32; 2],
+    pub green_top: f32,
+    pub green_foot: f32,
+    pub red_top: f32,
+    pub red_foot: f32,
 }
 
 /// `Segment` in WGSL.
@@ -43,8 +57,23 @@ pub struct AuroraSettings {
 #[repr(C)]
 #[allow(missing_docs, reason = "documented once, in shaders/aurora/streaks.wgsl")]
 pub struct Segment {
-    pub range: [u32; 4],
-    pub light: [f32; 4],
+    pub first_streak: u32,
+    pub streaks: u32,
+    pub first_node: u32,
+    pub span: u32,
+    pub collisions: f32,
+    pub width: f32,
+    pub length: f32,
+}
+
+/// `CurtainNode` in WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/aurora/streaks.wgsl")]
+pub struct CurtainNode {
+    pub place: [f32; 2],
+    pub flux: f32,
+    pub along: f32,
 }
 
 /// The walk of Sekiguchi et al.; as in shaders/aurora/streaks.wgsl.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::render::aurora::Segment;
+use crate::render::aurora::{CurtainNode, Segment};
 use crate::scene::aurora::curve::between_nodes;
 use crate::scene::aurora::motion::Node;
 
@@ -14,7 +14,7 @@ pub const ROWS: usize = 128;
 pub const ROW: f64 = 1.0;
 
 /// Nodes of all curtains at one time, as the shaders read them.
-pub type NodeRow = Arc<Vec<[f32; 4]>>;
+pub type NodeRow = Arc<Vec<CurtainNode>>;
 
 /// The rows of a history. A clone shares them.
 #[derive(Clone, Debug, Default)]
@@ -54,7 +54,7 @@ impl NodeHistory {
     }
 
     /// The nodes so many rows ago, from 0; none if there is no history.
-    pub fn ago(&self, rows: usize) -> &[[f32; 4]] {
+    pub fn ago(&self, rows: usize) -> &[CurtainNode] {
         self.slots.get((self.newest + rows) % ROWS).map_or(&[], |row| row)
     }
 
@@ -74,7 +74,7 @@ impl NodeHistory {
 
     /// The middle of a part of a curtain `age` seconds before the newest row; twin of `middle_of` in shaders/aurora/streaks.wgsl.
     pub fn middle_of(&self, segment: &Segment, age: f64) -> DVec2 {
-        let [_, first, _, span] = segment.range.map(|number| number as usize);
+        let [first, span] = [segment.first_node, segment.span].map(|number| number as usize);
         let node = first + (span - 1) / 2;
         let t = if span % 2 == 1 { 0.5 } else { 1.0 };
         between_nodes([0, 1, 2, 3].map(|k| self.node_at(node + k - 1, age)), t)[0]
@@ -82,10 +82,12 @@ impl NodeHistory {
 }
 
 fn row(nodes: impl Iterator<Item = Node>) -> NodeRow {
-    Arc::new(nodes.map(|node| [node.place.x, node.place.y, node.flux, node.along].map(|x| x as f32)).collect())
+    let told =
+        |Node { place, flux, along }: Node| CurtainNode { place: place.as_vec2().to_array(), flux: flux as f32, along: along as f32 };
+    Arc::new(nodes.map(told).collect())
 }
 
 /// Where a node of a row is, km in the plane across the field.
-pub fn place(row: &[[f32; 4]], node: usize) -> DVec2 {
-    row.get(node).map_or(DVec2::ZERO, |node| DVec2::new(f64::from(node[0]), f64::from(node[1])))
+pub fn place(row: &[CurtainNode], node: usize) -> DVec2 {
+    row.get(node).map_or(DVec2::ZERO, |node| DVec2::from(node.place.map(f64::from)))
 }

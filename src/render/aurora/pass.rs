@@ -22,10 +22,12 @@ use crate::scene::blackbody::xyz_to_rgb;
 
 /// Image orders in which an aurora may be drawn.
 const ORDERS: usize = 3;
-/// Bytes of `ChordEnd`, `Reference` and `Stroke` in WGSL.
-const CHORD_END_BYTES: u64 = 48;
-const REFERENCE_BYTES: u64 = 128;
-const STROKE_BYTES: u64 = 40;
+/// Bytes of `ChordEnd` in WGSL.
+pub const CHORD_END_BYTES: u64 = 48;
+/// Bytes of `Reference` in WGSL.
+pub const REFERENCE_BYTES: u64 = 144;
+/// Bytes of `Stroke` in WGSL.
+pub const STROKE_BYTES: u64 = 40;
 
 /// Number of heights at which the middle of a part of a curtain is projected, for streaks of so many chords. As in streaks.wgsl.
 fn reference_room(chords: u32) -> u32 {
@@ -131,15 +133,14 @@ impl Aurora {
         let device = &gpu.device;
         let orders = frame.instances.len().min(ORDERS);
         let mut settings = frame.settings;
-        let [streaks, chords, ..] = settings.counts;
+        let AuroraSettings { streaks, chords, .. } = settings;
         // All of them must fit into a buffer, with the quarter more that it grows by.
         let most = device.limits().max_storage_buffer_binding_size * 4 / 5 / (STROKE_BYTES * orders as u64 * 2);
         // Rooms of coarser levels are half as large each, so all of them together are less than twice the finest.
-        settings.history[2] = (u64::from(settings.history[2]).min(most) as u32).next_multiple_of(8);
-        let in_use = (settings.strokes[1] as u32).clamp(1, PYRAMID);
-        settings.strokes[1] = in_use as f32;
-        let rooms = Rooms { finest: u64::from(settings.history[2]), levels: in_use };
-        let mut replaced = self.groups.is_none() || in_use != self.rooms.levels;
+        settings.room = (u64::from(settings.room).min(most) as u32).next_multiple_of(8);
+        settings.levels = settings.levels.clamp(1, PYRAMID);
+        let rooms = Rooms { finest: u64::from(settings.room), levels: settings.levels };
+        let mut replaced = self.groups.is_none() || rooms.levels != self.rooms.levels;
         self.rooms = rooms;
         replaced |= self.write_rows(gpu, &frame.rows);
         // They change only with the keys of the spectrum.
@@ -150,8 +151,8 @@ impl Aurora {
         replaced |= self.segments.write::<Segment>(gpu, &frame.segments);
         replaced |= self.chords.reserve(device, CHORD_END_BYTES * u64::from(streaks) * u64::from(chord_room(chords)) * orders as u64);
         replaced |= self.strokes.reserve(device, STROKE_BYTES * rooms.all() * orders as u64);
-        let poles = if settings.history[3] & BOTH_POLES != 0 { 2 } else { 1 };
-        self.projected = settings.history[1] * poles * reference_room(chords);
+        let poles = if settings.flags & BOTH_POLES != 0 { 2 } else { 1 };
+        self.projected = settings.segments * poles * reference_room(chords);
         replaced |= self.references.reserve(device, REFERENCE_BYTES * u64::from(self.projected) * orders as u64);
         if self.levels.as_ref().is_none_or(|levels| levels.size != targets.size) {
             self.levels = Some(Levels::new(gpu, targets.size));
@@ -170,7 +171,7 @@ impl Aurora {
                 let [r, g, b] = xyz_to_rgb([x, y, z].map(f64::from));
                 [r as f32, g as f32, b as f32, 0.0]
             };
-            let colours = Colours { lines: colours.lines.map(|lines| lines.map(rgb)), tile: [tile[0], tile[1], 0.0, 0.0], ..*colours };
+            let colours = Colours { lines: colours.lines.map(|lines| lines.map(rgb)), tile, ..*colours };
             gpu.queue.write_buffer(buffer, 0, bytemuck::bytes_of(&colours));
         }
         self.images = frame.parts.iter().map(|part| pixels(*part, targets.size)).zip(frame.behind.iter().copied()).take(orders).collect();

@@ -51,7 +51,10 @@ pub struct ArcPass {
 
 /// [`DiskVertex`] as a vertex buffer, `SeenDisk` of WGSL.
 fn vertex_layout() -> wgpu::VertexBufferLayout<'static> {
-    const ATTRIBUTES: [wgpu::VertexAttribute; 4] = wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4, 3 => Float32x4];
+    const ATTRIBUTES: [wgpu::VertexAttribute; 15] = wgpu::vertex_attr_array![
+        0 => Float32x3, 1 => Float32, 2 => Float32, 3 => Float32, 4 => Float32, 5 => Float32, 6 => Float32, 7 => Float32, 8 => Float32,
+        9 => Float32, 10 => Float32, 11 => Float32, 12 => Float32, 13 => Float32, 14 => Float32
+    ];
     wgpu::VertexBufferLayout {
         array_stride: size_of::<DiskVertex>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
@@ -101,7 +104,7 @@ impl ArcPass {
             bends: TableTexture::new(device, "disk bends", false),
             seen: Growing::new(device, "disk vertices", storage | BufferUsages::VERTEX),
             segment_buffer: Growing::new(device, "disk segments", storage),
-            jobs: buffer(device, "disk jobs", 16 * u64::from(EXTRA), storage),
+            jobs: buffer(device, "disk jobs", types::JOB_BYTES * u64::from(EXTRA), storage),
             indices: buffer(device, "disk indices", 4 * u64::from(total), storage | BufferUsages::INDEX),
             counters: buffer(device, "disk counters", size_of::<DiskCounters>() as u64, storage),
             arguments_group: bind(device, "disk arguments", &arguments_layout, &[arguments.as_entire_binding()]),
@@ -128,7 +131,7 @@ impl ArcPass {
         replaced |= self.rings.write(gpu, &view.rings);
         replaced |= self.bends.write(gpu, &view.bends);
         replaced |= self.seen.reserve(device, u64::from(view.frame.vertex_room) * size_of::<DiskVertex>() as u64);
-        replaced |= self.segment_buffer.reserve(device, 16 * u64::from(arcs * rows));
+        replaced |= self.segment_buffer.reserve(device, types::SEGMENTS_BYTES * u64::from(arcs * rows));
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&DiskCounters::default()));
         if replaced || self.group.is_none() {
             self.group = Some(self.bind(device, frame));

@@ -9,6 +9,7 @@ use glam::{DVec2, DVec3};
 use crate::lensing::Slice;
 use crate::lensing::lookup::lens_lookup_at;
 use crate::render::disk::drawn::Disk;
+use crate::render::disk::types::Bend;
 use crate::scene::disk::radial::LAST_ORBIT;
 use crate::scene::disk::{LEAST_COSINE, PATTERN_HEIGHT};
 
@@ -295,8 +296,9 @@ impl RingBend {
     }
 
     /// For the shaders.
-    pub fn row(&self) -> [f32; 4] {
-        [self.height, self.light[0], self.depth, self.light[1]].map(|value| value as f32)
+    pub fn told(&self) -> Bend {
+        let [light, other_light] = self.light.map(|light| light as f32);
+        Bend { height: self.height as f32, light, other_light, depth: self.depth as f32 }
     }
 }
 

@@ -1,5 +1,6 @@
 //! A disk ready to be drawn.
 
+use crate::render::disk::types::RadialGas;
 use crate::scene::GameConfig;
 use crate::scene::config;
 use crate::scene::disk::arcs::Arcs;
@@ -29,20 +30,25 @@ impl Disk {
         Disk { gas, arcs, config: disk, min_width: config.render.min_width }
     }
 
-    /// Two rows for each radius, as `shaders/disk/radial.wgsl` reads them.
-    pub(super) fn radial_table(&self) -> Vec<[f32; 4]> {
+    /// The gas at radius `r`, in r_s.
+    pub(super) fn gas_at(&self, r: f64) -> RadialGas {
         let radial = &self.gas.radial;
+        let [outward, along] = radial.momentum(r);
+        RadialGas {
+            radius: r as f32,
+            lead: radial.lag(r) as f32,
+            ln_temperature: radial.temperature(r).ln() as f32,
+            depth: radial.depth(r) as f32,
+            outward: outward as f32,
+            along: along as f32,
+            half_height: self.gas.half_height(r) as f32,
+            pattern_height: (radial.pattern_radius(r).ln() / PATTERN_HEIGHT) as f32,
+        }
+    }
+
+    /// The gas at radii that divide the disk evenly, for `shaders/disk/radial.wgsl`.
+    pub(super) fn radial_table(&self) -> Vec<RadialGas> {
         let [start, end] = self.gas.extent();
-        (0..RADII)
-            .flat_map(|k| {
-                let r = start + (end - start) * k as f64 / (RADII - 1) as f64;
-                let [outward, along] = radial.momentum(r);
-                let pattern = radial.pattern_radius(r).ln() / PATTERN_HEIGHT;
-                [
-                    [radial.temperature(r).ln(), radial.depth(r), outward, along].map(|value| value as f32),
-                    [radial.lag(r), self.gas.half_height(r), pattern, r].map(|value| value as f32),
-                ]
-            })
-            .collect()
+        (0..RADII).map(|k| self.gas_at(start + (end - start) * k as f64 / (RADII - 1) as f64)).collect()
     }
 }

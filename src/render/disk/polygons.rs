@@ -21,6 +21,7 @@ use crate::render::models::{ModelRange, ModelSet, Models};
 use crate::scene::disk::polygons::{Ring, model, rings};
 
 use crate::render::disk::drawn::Disk;
+use crate::render::disk::types::Turning;
 
 /// Two-sided triangles, with the frequency ratio of static observers; the gas's own motion comes in with its colour.
 const HELD_TWO_SIDED: u32 = HELD | TWO_SIDED;
@@ -142,7 +143,7 @@ impl PolygonPass {
                 // `Ring` of shaders/instances/ring.wgsl.
                 let ring = [inner, outer, rate as f32, azimuth as f32];
                 placed.push(Placed { model: part.range, instance, nodes: vec![[ring, [0.0; 4], [0.0; 4]]], calmed: false });
-                turning.push([rate / TAU, azimuth / TAU].map(|value| value as f32));
+                turning.push(Turning { rate: (rate / TAU) as f32, azimuth: (azimuth / TAU) as f32 });
             }
         }
         self.geometry.prepare(gpu, &self.models, &placed, input.settings.vertex_budget, None);

@@ -10,7 +10,7 @@ use crate::render::gpu::shaders::Pass;
 use crate::scene::disk::sprites::Sprites;
 
 use crate::render::disk::drawn::Disk;
-use crate::render::disk::types::SEEN_SPRITE_BYTES;
+use crate::render::disk::types::{SEEN_SPRITE_BYTES, Sprite, SpriteImage};
 use crate::render::disk::view::DiskView;
 
 /// Orders 1, 2 and 3 are drawn with one sprite in so many: images behind the first are many times narrower.
@@ -53,16 +53,13 @@ impl SpritePass {
         let images = [1u32, 2, 3].map(|order| {
             let most = disk.config.sprites / SHARES[order as usize - 1];
             let Sprites { all, width } = Sprites::new(most, &disk.config, &disk.gas.radial);
-            let all: Vec<[f32; 3]> =
-                all.iter().map(|sprite| [sprite.radius, sprite.sigma, sprite.step].map(|value| value as f32)).collect();
+            let sprite = |radius: f64, sigma: f64, step: f64| Sprite { radius: radius as f32, sigma: sigma as f32, step: step as f32 };
+            let all: Vec<Sprite> = all.iter().map(|at| sprite(at.radius, at.sigma, at.step)).collect();
             let places = storage(gpu, "sprites", &all);
             let seen = buffer(device, "seen sprites", SEEN_SPRITE_BYTES * all.len() as u64, BufferUsages::STORAGE);
-            let told = buffer(device, "image of sprites", 16, BufferUsages::UNIFORM);
-            gpu.queue.write_buffer(
-                &told,
-                0,
-                bytemuck::cast_slice(&[order, (width as f32).to_bits(), all.len() as u32, (disk.gas.extent()[1] as f32).to_bits()]),
-            );
+            let image = SpriteImage { order, ring_width: width as f32, count: all.len() as u32, end: disk.gas.extent()[1] as f32 };
+            let told = buffer(device, "image of sprites", size_of::<SpriteImage>() as u64, BufferUsages::UNIFORM);
+            gpu.queue.write_buffer(&told, 0, bytemuck::bytes_of(&image));
             let resources = [frame, radial, &places, &seen, &told].map(|buffer| buffer.as_entire_binding());
             OrderSprites {
                 count: all.len() as u32,
@@ -84,7 +81,7 @@ impl SpritePass {
 
     /// Draws the orders of `view`.
     pub fn prepare(&mut self, view: &DiskView) {
-        self.drawn = [1, 2, 3].map(|order| view.rings.iter().any(|ring| ring[2] == order));
+        self.drawn = [1, 2, 3].map(|order| view.rings.iter().any(|ring| ring.order == order));
     }
 
     /// The images of these orders that are drawn, the farthest first.

@@ -38,15 +38,39 @@ pub struct DiskFrame {
     pub offset_step: [f32; 2],
 }
 
+/// `RadialGas` in WGSL.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/disk/types.wgsl")]
+pub struct RadialGas {
+    pub radius: f32,
+    pub lead: f32,
+    pub ln_temperature: f32,
+    pub depth: f32,
+    pub outward: f32,
+    pub along: f32,
+    pub half_height: f32,
+    pub pattern_height: f32,
+}
+
 /// `Circle` in WGSL.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C)]
 #[allow(missing_docs, reason = "documented once, in shaders/disk/types.wgsl")]
 pub struct Circle {
-    pub gas: [f32; 4],
-    pub motion: [f32; 4],
-    pub place: [f32; 4],
-    pub rows: [u32; 4],
+    pub gas: RadialGas,
+    pub beyond: f32,
+    pub gap_radius: f32,
+    pub gap: f32,
+    pub gap_sides: f32,
+    pub order: u32,
+    pub first_row: u32,
+    pub last_row: u32,
+    pub first_sample: u32,
+    pub nearer_depth: f32,
+    pub nearer_outward: f32,
+    pub nearer_along: f32,
+    pub nearer_radius: f32,
 }
 
 /// `DiskVertex` in WGSL.
@@ -54,10 +78,74 @@ pub struct Circle {
 #[repr(C)]
 #[allow(missing_docs, reason = "documented once, in shaders/disk/types.wgsl")]
 pub struct DiskVertex {
-    pub apparent: [f32; 4],
-    pub gas: [f32; 4],
-    pub more: [f32; 4],
-    pub bend: [f32; 4],
+    pub apparent: [f32; 3],
+    pub path: f32,
+    pub turns: f32,
+    pub pattern_height: f32,
+    pub ln_temperature: f32,
+    pub depth: f32,
+    pub ln_g: f32,
+    pub cosine: f32,
+    pub filled: f32,
+    pub from_middle: f32,
+    pub half_width: f32,
+    pub bend_height: f32,
+    pub bend_light: f32,
+    pub bend_depth: f32,
+    pub side: f32,
+    pub unused: [f32; 3],
+}
+
+/// `Ring` of shaders/disk/arcs/bindings.wgsl.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/disk/arcs/bindings.wgsl")]
+pub struct Ring {
+    pub inner: u32,
+    pub outer: u32,
+    pub order: u32,
+    pub unused: u32,
+}
+
+/// `Bend` of shaders/disk/arcs/bindings.wgsl.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/disk/arcs/bindings.wgsl")]
+pub struct Bend {
+    pub height: f32,
+    pub light: f32,
+    pub other_light: f32,
+    pub depth: f32,
+}
+
+/// `Turning` of shaders/disk/polygons.wgsl.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/disk/polygons.wgsl")]
+pub struct Turning {
+    pub rate: f32,
+    pub azimuth: f32,
+}
+
+/// `Sprite` of shaders/disk/sprites.wgsl.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/disk/sprites.wgsl")]
+pub struct Sprite {
+    pub radius: f32,
+    pub sigma: f32,
+    pub step: f32,
+}
+
+/// `SpriteImage` of shaders/disk/sprites.wgsl.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/disk/sprites.wgsl")]
+pub struct SpriteImage {
+    pub order: u32,
+    pub ring_width: f32,
+    pub count: u32,
+    pub end: f32,
 }
 
 /// `Counters` in WGSL.
@@ -92,6 +180,10 @@ impl std::fmt::Display for DiskCounters {
     }
 }
 
+/// Bytes of `Segments` and `Job` in WGSL.
+pub const SEGMENTS_BYTES: u64 = 16;
+/// See [`SEGMENTS_BYTES`].
+pub const JOB_BYTES: u64 = 12;
 /// Bytes of `DiskArguments` in WGSL.
 pub const ARGUMENTS_BYTES: u64 = 144;
 /// Offset of the first list's draw; each takes [`ARGUMENTS_DRAW_STEP`].

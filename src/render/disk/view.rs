@@ -8,12 +8,12 @@ use glam::DVec3;
 use crate::lensing::Slice;
 use crate::render::frame::FrameInput;
 use crate::scene::disk::radial::smoothstep;
-use crate::scene::disk::{DISK_UNIT, OFFSET_STEP, PATTERN_HEIGHT, RENEWAL, SHEARED};
+use crate::scene::disk::{DISK_UNIT, OFFSET_STEP, RENEWAL, SHEARED};
 
 use crate::render::disk::circles::{AZIMUTHS, Circles, FROM_FAR, FROM_NEAR, Look, RingBend, SeenCircle, azimuth, pixel_angle, radii};
 use crate::render::disk::drawn::Disk;
 use crate::render::disk::sigma::sigma;
-use crate::render::disk::types::{Circle, DiskFrame};
+use crate::render::disk::types::{Bend, Circle, DiskFrame, Ring};
 
 /// Least |sine| of the camera's height over the plane. In the plane itself the disk is seen edge on and its image has no width.
 const LEAST_HEIGHT: f64 = 1e-5;
@@ -47,10 +47,10 @@ pub struct DiskView {
     pub samples: Vec<Circle>,
     /// σ of the cuts, in rad.
     pub cuts: Vec<f32>,
-    /// For each ring: the indices of its two circles, and its image order.
-    pub rings: Vec<[u32; 4]>,
+    /// The rings between them.
+    pub rings: Vec<Ring>,
     /// For each circle, by azimuth: the deviation of the middle of the ring that begins there ([`RingBend`]).
-    pub bends: Vec<[f32; 4]>,
+    pub bends: Vec<Bend>,
     /// Orders up to this one are drawn as from near, with fine structure; 0 from far.
     pub close: u32,
 }
@@ -80,7 +80,7 @@ impl DiskView {
             view.add_image(&look, &plane, ring_error);
         }
         let count = view.circles.len() as u32;
-        view.circles.iter_mut().for_each(|circle| circle.rows[3] += count);
+        view.circles.iter_mut().for_each(|circle| circle.first_sample += count);
         view.frame = view.frame(disk, input, &plane);
         view
     }
@@ -106,18 +106,27 @@ impl DiskView {
                 self.samples.extend(shares.map(|r| sample(disk, r, (order == 3).then(|| through_second(plane, azimuth, r)))));
             }
         }
-        let mut own: Vec<Circle> = rows.radii.iter().map(|&r| circle(disk, r, plane, [order, first, last, behind])).collect();
+        let on_row = |&r: &f64| Circle {
+            gas: disk.gas_at(r),
+            beyond: (r * plane.level - plane.l) as f32,
+            order,
+            first_row: first,
+            last_row: last,
+            first_sample: behind,
+            ..Circle::default()
+        };
+        let mut own: Vec<Circle> = rows.radii.iter().map(on_row).collect();
         if gaps {
             let [_, end] = disk.gas.extent();
             for (circle, closed) in own.iter_mut().zip(gap_middles(disk)) {
-                circle.place[1] = closed as f32;
-                circle.place[2] = disk.config.gap as f32;
-                circle.place[3] = if closed < end { 2.0 } else { 1.0 };
+                circle.gap_radius = closed as f32;
+                circle.gap = disk.config.gap as f32;
+                circle.gap_sides = if closed < end { 2.0 } else { 1.0 };
             }
         }
         self.circles.extend(own);
-        self.bends.extend(rows.bends.iter().flatten().map(RingBend::row));
-        self.rings.extend(rows.pairs.into_iter().map(|[a, b]| [first + a, first + b, order, 0]));
+        self.bends.extend(rows.bends.iter().flatten().map(RingBend::told));
+        self.rings.extend(rows.pairs.into_iter().map(|[a, b]| Ring { inner: first + a, outer: first + b, order, unused: 0 }));
     }
 
     /// What the shaders are told, once all images are added. The camera's time is counted from the first generation of
@@ -304,27 +313,13 @@ fn sigmas(cuts: &[f64], origin: f64, height: f64) -> Vec<f32> {
 
 /// A circle that counts in the mean gas of a thin image. Light of the third image crosses the second at the radius `through`.
 fn sample(disk: &Disk, r: f64, through: Option<f64>) -> Circle {
-    let radial = &disk.gas.radial;
-    let nearer = through.unwrap_or(r);
-    let [outward, along] = radial.momentum(nearer);
-    let behind = through.map_or(0.0, |r| radial.depth(r) as f32);
-    let place = [behind, outward as f32, along as f32, nearer as f32];
-    Circle { place, ..gas_circle(disk, r) }
-}
-
-/// A circle at radius `r` (r_s) that is drawn; `rows`: its order, the first and the last row of that, and the first of its samples.
-fn circle(disk: &Disk, r: f64, plane: &Plane, rows: [u32; 4]) -> Circle {
-    Circle { place: [(r * plane.level - plane.l) as f32, 0.0, 0.0, 0.0], rows, ..gas_circle(disk, r) }
-}
-
-/// The gas on a circle, and nothing of where it is seen.
-fn gas_circle(disk: &Disk, r: f64) -> Circle {
-    let radial = &disk.gas.radial;
-    let [outward, along] = radial.momentum(r);
-    let pattern = radial.pattern_radius(r).ln() / PATTERN_HEIGHT;
+    let nearer = disk.gas_at(through.unwrap_or(r));
     Circle {
-        gas: [r as f32, radial.lag(r) as f32, radial.temperature(r).ln() as f32, radial.depth(r) as f32],
-        motion: [outward as f32, along as f32, disk.gas.half_height(r) as f32, pattern as f32],
+        gas: disk.gas_at(r),
+        nearer_depth: through.map_or(0.0, |_| nearer.depth),
+        nearer_outward: nearer.outward,
+        nearer_along: nearer.along,
+        nearer_radius: nearer.radius,
         ..Circle::default()
     }
 }

@@ -62,6 +62,17 @@ pub struct Capacity {
     pub thin: u32,
 }
 
+/// `Adaptation` in WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
+pub struct Adaptation {
+    pub exposure: f32,
+    pub metered: f32,
+    pub known: f32,
+    pub steadied: f32,
+}
+
 /// Bits of `Frame::flags`, the `FLAG_*` of WGSL.
 pub mod flags {
     /// Light changes its colour.

@@ -1,10 +1,13 @@
 //! Reduced flashes: the mean brightness of the picture as shown rises no faster than it may. The picture is dimmed where it would.
 
+use std::mem::offset_of;
+
 use wgpu::{BindingResource, BufferUsages, ShaderStages};
 
 use crate::render::gpu::layout::{Slot, bind, buffer, compute, layout};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::Targets;
+use crate::render::gpu::types::Adaptation;
 use crate::render::passes::Recording;
 
 /// Workgroups that share the pixels; as in shaders/post_process/flashes.wgsl.
@@ -17,7 +20,7 @@ pub struct Flashes {
     sum: wgpu::ComputePipeline,
     settle: wgpu::ComputePipeline,
     sums: wgpu::Buffer,
-    /// The factor on the picture, and the mean that was shown.
+    /// `Shown` of flashes.wgsl.
     shown: wgpu::Buffer,
     group: Option<wgpu::BindGroup>,
 }
@@ -32,7 +35,7 @@ impl Flashes {
             sum: pass("sum"),
             settle: pass("settle"),
             sums: buffer(device, "flashes sums", 4 * u64::from(GROUPS), BufferUsages::STORAGE),
-            shown: buffer(device, "flashes shown", 16, BufferUsages::STORAGE),
+            shown: buffer(device, "flashes shown", 8, BufferUsages::STORAGE),
             layout,
             group: None,
         }
@@ -64,6 +67,6 @@ impl Flashes {
             pass.set_pipeline(&self.settle);
             pass.dispatch_workgroups(1, 1, 1);
         }
-        recording.encoder.copy_buffer_to_buffer(&self.shown, 0, adapted, 12, 4);
+        recording.encoder.copy_buffer_to_buffer(&self.shown, 0, adapted, offset_of!(Adaptation, steadied) as u64, 4);
     }
 }

@@ -11,6 +11,7 @@ use crate::render::geometry::thin::{ThinLists, tiles_layout};
 use crate::render::gpu::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, new_texture, raster};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::{Targets, tiles};
+use crate::render::gpu::types::Adaptation;
 use crate::render::passes::{Recording, colour};
 
 use flashes::Flashes;
@@ -34,7 +35,7 @@ pub struct PostProcess {
     smooth: wgpu::RenderPipeline,
     output: wgpu::TextureFormat,
     sampler: wgpu::Sampler,
-    /// The exposure that the exposure pass chose, for the pixels, and the factor on the picture.
+    /// [`Adaptation`] as the exposure pass left it, with the factor on the picture, for the pixels.
     adapted: wgpu::Buffer,
     flashes: Flashes,
     groups: Option<Groups>,
@@ -123,7 +124,7 @@ impl PostProcess {
                 ..Default::default()
             }),
             flashes: Flashes::new(device, frame_layout),
-            adapted: buffer(device, "adapted", 16, wgpu::BufferUsages::UNIFORM),
+            adapted: buffer(device, "adapted", size_of::<Adaptation>() as u64, wgpu::BufferUsages::UNIFORM),
             thin_layout,
             sampled_layout,
             meter_layout,
@@ -199,7 +200,7 @@ impl PostProcess {
             pass.set_bind_group(2, &groups.meter, &[]);
             pass.dispatch_workgroups(1, 1, 1);
         }
-        recording.encoder.copy_buffer_to_buffer(adaptation, 0, &self.adapted, 0, 16);
+        recording.encoder.copy_buffer_to_buffer(adaptation, 0, &self.adapted, 0, size_of::<Adaptation>() as u64);
         if finish.blooms {
             self.mix_levels(recording, groups, finish.resolution);
         }

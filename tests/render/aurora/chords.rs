@@ -42,17 +42,15 @@ fn ends_of(renderer: &mut Renderer, camera: Observer, frame: &AuroraFrame, setti
     let input = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: Some(frame.clone()), settings: *settings };
     renderer.picture(&input, false).unwrap();
     let bytes = readback::buffer(&GPU, renderer.aurora().references()).unwrap();
-    let rows: Vec<[[f32; 4]; 8]> = bytemuck::pod_collect_to_vec(&bytes);
-    let chords = frame.settings.counts[1] as usize;
-    let poles = if frame.settings.history[3] & BOTH_POLES != 0 { 2 } else { 1 };
+    // `Reference` of streaks.wgsl. A buffer that grew has room to spare.
+    let rows: Vec<[[f32; 4]; 9]> = bytemuck::pod_collect_to_vec(&bytes[..bytes.len() / 144 * 144]);
+    let chords = frame.settings.chords as usize;
+    let poles = if frame.settings.flags & BOTH_POLES != 0 { 2 } else { 1 };
     let count = frame.instances.len() * frame.segments.len() * poles;
-    let end = |[apparent, _, east, north, up, ..]: &[[f32; 4]; 8]| {
-        let vector = |row: &[f32; 4]| DVec3::new(f64::from(row[0]), f64::from(row[1]), f64::from(row[2]));
-        let body = DVec3::new(f64::from(east[3]), f64::from(north[3]), f64::from(up[3]));
-        End { body, seen: (apparent[3] > 0.0).then(|| vector(apparent)) }
-    };
+    let vector = |[x, y, z, _]: &[f32; 4]| DVec3::new(f64::from(*x), f64::from(*y), f64::from(*z));
+    let end = |[body, apparent, ..]: &[[f32; 4]; 9]| End { body: vector(body), seen: (body[3].to_bits() > 0).then(|| vector(apparent)) };
     // First the ends of green light, then those of red.
-    let of_part = |part: &[[[f32; 4]; 8]]| [&part[..=chords], &part[chords + 1..]].map(|rows| rows.iter().map(end).collect::<Vec<End>>());
+    let of_part = |part: &[[[f32; 4]; 9]]| [&part[..=chords], &part[chords + 1..]].map(|rows| rows.iter().map(end).collect::<Vec<End>>());
     rows.chunks(3 * chords + 2).take(count).flat_map(of_part).collect()
 }
 
@@ -99,10 +97,10 @@ fn hold(renderer: &mut Renderer, planet: &Planet, camera: Observer, config: &Gam
     let mut show = AuroraAnimation::new(planet, None, &config.aurora).unwrap();
     let mut frame = show.frame(&view, 0.0, back, 3).expect("the aurora is in sight");
     // No strokes: only where the chords are is asked for.
-    (frame.settings.counts[2], frame.settings.history[2]) = (1, 8);
+    (frame.settings.parts, frame.settings.room) = (1, 8);
     let own = ends_of(renderer, camera, &frame, &settings);
     let mut fine_frame = frame.clone();
-    fine_frame.settings.counts[1] = FINE;
+    fine_frame.settings.chords = FINE;
     let fine = ends_of(renderer, camera, &fine_frame, &settings);
     let history = planet_history(planet, 0.0, back, planet.dipole()).unwrap();
     let falls = Quantiles::new(&Spectrum { accelerated: config.aurora.energy, thermal: config.aurora.thermal });
@@ -150,7 +148,7 @@ fn hold(renderer: &mut Renderer, planet: &Planet, camera: Observer, config: &Gam
         let over = off.iter().filter(|off| **off > 1.0).count();
         format!("{over} over, {:.2} in 99 of 100, worst {:.2}", off[off.len() * 99 / 100], off[off.len() - 1])
     };
-    println!("{} chords, {} streaks: {}; chords alone: {}", frame.settings.counts[1], off.len(), summary(&off), summary(&by_chords));
+    println!("{} chords, {} streaks: {}; chords alone: {}", frame.settings.chords, off.len(), summary(&off), summary(&by_chords));
     assert!(off.len() > 100, "{} streaks are seen", off.len());
     [off, by_chords]
 }

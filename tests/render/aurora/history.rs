@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 use lensrunner::render::aurora::node_history::{NodeHistory, ROW, ROWS};
-use lensrunner::render::aurora::{AuroraSettings, Segment};
+use lensrunner::render::aurora::{AuroraSettings, CurtainNode, Segment};
 use lensrunner::render::gpu::layout;
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::stage::{Stage, settings};
@@ -58,21 +58,20 @@ fn the_ring_of_rows_is_read_the_same_in_both_languages() {
     let uniform_buffer = layout::buffer(&GPU.device, "aurora", size_of::<AuroraSettings>() as u64, wgpu::BufferUsages::UNIFORM);
     for pushed in [0, 1, 50, 130] {
         (0..pushed).for_each(|step| rows.push(nodes(1000 * pushed + step)));
-        let counts = [0, 0, 0, rows.ago(0).len() as u32];
-        let settings =
-            AuroraSettings { counts, history: [rows.newest() as u32, 0, 0, 0], clock: [ROW as f32, 0.0, 0.0, 0.0], ..Default::default() };
+        let (row_nodes, newest_row) = (rows.ago(0).len() as u32, rows.newest() as u32);
+        let settings = AuroraSettings { row_nodes, newest_row, row_seconds: ROW as f32, ..Default::default() };
         GPU.queue.write_buffer(&uniform_buffer, 0, bytemuck::bytes_of(&settings));
-        let slots: Vec<[f32; 4]> = rows.slots().iter().flat_map(|row| row.iter().copied()).collect();
+        let slots: Vec<CurtainNode> = rows.slots().iter().flat_map(|row| row.iter().copied()).collect();
         let slots = layout::storage(&GPU, "nodes", &slots);
         // A node, an age from the newest row to before the oldest, and the part of a curtain that begins with it.
         let input: Vec<[f32; 4]> = (0..400u32).map(|k| [(1 + k % 8) as f32, 0.35 * k as f32 - 1.0, (1 + k % 6) as f32, 0.0]).collect();
         let body = "#import lensrunner::aurora::streaks::{middle_of, Segment}
-    var part: Segment; part.range = vec4<u32>(0u, u32(row.x), 0u, u32(row.z)); \
-                    twin_out[id.x] = vec4<f32>(node_at(u32(row.x), row.y).xy, middle_of(part, row.y));";
+    var part: Segment; part.first_node = u32(row.x); part.span = u32(row.z); \
+                    twin_out[id.x] = vec4<f32>(node_at(u32(row.x), row.y).place, middle_of(part, row.y));";
         let got = run_with(Pass::AuroraEnds, body, [&[], &[]], &[(0, &uniform_buffer), (2, &slots)], &input, 1);
         for (row, got) in input.iter().zip(got) {
             let age = f64::from(row[1]);
-            let part = Segment { range: [0, row[0] as u32, 0, row[2] as u32], ..Default::default() };
+            let part = Segment { first_node: row[0] as u32, span: row[2] as u32, ..Default::default() };
             let want = [rows.node_at(row[0] as usize, age), rows.middle_of(&part, age)];
             let got = [DVec2::new(got[0].into(), got[1].into()), DVec2::new(got[2].into(), got[3].into())];
             // f32 at 2000 km is good to 0.1 m, and the clock of 127 s to 10 µs, in which these nodes move by 0.2 m.

@@ -38,10 +38,10 @@ fn an_aurora_is_drawn_where_it_is_and_only_there() {
     let camera = stage.camera(0.0, &[]);
     let frame = stage.frame(camera, size, 0.0, &[], None, &settings(&config));
     let aurora = frame.aurora.as_ref().expect("the aurora is in sight");
-    let streaks = aurora.settings.counts[0];
+    let streaks = aurora.settings.streaks;
     // Each segment has at least its ten: five in the north and five in the south.
     assert!(streaks <= 3000 + 10 * aurora.segments.len() as u32, "{streaks}");
-    assert!(aurora.segments.iter().all(|segment| segment.range[2] % 10 == 0 && segment.light[0].is_finite()));
+    assert!(aurora.segments.iter().all(|segment| segment.streaks % 10 == 0 && segment.collisions.is_finite()));
     let picture = renderer.picture(&frame, false).unwrap();
     assert!(picture.linear.iter().flatten().all(|x| x.is_finite()));
     let shines = green(&picture);
@@ -107,7 +107,7 @@ fn brightness_never_jumps() {
     let mut light = |distance: f64, time: f64| {
         let camera = static_camera(planet + aside * distance, -aside, DVec3::Z, 0.35);
         let frame = aurora_alone(&stage, camera, size, time, &config);
-        let streaks = frame.aurora.as_ref().map_or(0, |aurora| aurora.settings.counts[0]);
+        let streaks = frame.aurora.as_ref().map_or(0, |aurora| aurora.settings.streaks);
         (streaks, total(&renderer.picture(&frame, false).unwrap()))
     };
     // Away from the planet until it is out of sight by its size: fewer and fewer streaks, fewer strokes, fewer chords, none.
@@ -182,7 +182,7 @@ fn the_pyramid_changes_no_picture() {
         let levels = renderer.aurora_strokes().unwrap().unwrap();
         let coarse: u32 = levels[1..].iter().sum();
         assert!(levels.len() == PYRAMID as usize && coarse > levels[0] / 10, "{name}: {levels:?}");
-        frame.aurora.as_mut().unwrap().settings.strokes[1] = 1.0;
+        frame.aurora.as_mut().unwrap().settings.levels = 1;
         let want = renderer.picture(&frame, false).unwrap();
         assert_eq!(renderer.aurora_strokes().unwrap().unwrap().len(), 1);
         let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
@@ -213,8 +213,8 @@ fn parts_of_a_streak_that_are_one_stroke_change_no_picture() {
         // Parts of a streak, and a picture of each; room for the most.
         let drawn = [24, 48].map(|parts| {
             let settings = &mut frame.aurora.as_mut().unwrap().settings;
-            let streaks = settings.counts[0];
-            (settings.counts[2], settings.history[2]) = (parts, 48 * streaks);
+            let streaks = settings.streaks;
+            (settings.parts, settings.room) = (parts, 48 * streaks);
             let picture = renderer.picture(&frame, false).unwrap();
             let strokes: u32 = renderer.aurora_strokes().unwrap().unwrap().iter().sum();
             assert!(f64::from(strokes) < 0.8 * f64::from(parts * streaks), "{name}: {strokes} strokes, {parts} parts");
@@ -262,7 +262,7 @@ fn nothing_is_left_of_an_earlier_frame() {
             let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), size, 0.0, &config);
             let aurora = frame.aurora.as_mut().unwrap();
             assert!(*name == "aurora-below" || aurora.instances.len() == images, "{name}: {} images", aurora.instances.len());
-            aurora.settings.strokes[1] = 1.0;
+            aurora.settings.levels = 1;
             renderer.picture(&frame, false).unwrap().linear
         });
         pictures.last().unwrap()
@@ -286,7 +286,7 @@ fn nothing_is_left_of_an_earlier_image() {
     assert_eq!(whole.instances.len(), 2);
     let mut drawn = |images: &[usize]| {
         let mut aurora = whole.clone();
-        aurora.settings.strokes[1] = 1.0;
+        aurora.settings.levels = 1;
         aurora.instances = images.iter().map(|&k| whole.instances[k]).collect();
         aurora.parts = images.iter().map(|&k| whole.parts[k]).collect();
         aurora.behind = images.iter().map(|&k| whole.behind[k]).collect();
@@ -364,13 +364,13 @@ fn an_oval_is_brighter_at_magnetic_midnight() {
     for time in [0.0, 0.3 * planet.day] {
         let mut frame = aurora_alone(&stage, stage.camera(time, &[]), size, time, &config);
         // In the dipole's axes, which turn with the planet; in space it points away from the hole.
-        let [x, y] = [2, 3].map(|k| f64::from(frame.aurora.as_ref().unwrap().settings.strokes[k]));
+        let [x, y] = frame.aurora.as_ref().unwrap().settings.midnight.map(f64::from);
         let state = planet.state(time).unwrap();
         let midnight = state.attitude * planet.dipole() * DVec3::new(x, y, 0.0);
         assert!(midnight.dot(state.position.normalize()) > 0.4, "{midnight} at {}", state.position);
         // The light of both sides, with midnight on the one, on the other, and on neither.
         let lit = [1.0, -1.0, 0.0].map(|part: f64| {
-            frame.aurora.as_mut().unwrap().settings.strokes[2..].copy_from_slice(&[(part * x) as f32, (part * y) as f32]);
+            frame.aurora.as_mut().unwrap().settings.midnight = [(part * x) as f32, (part * y) as f32];
             total(&renderer.picture(&frame, false).unwrap())
         });
         // Brighter parts have harder electrons, whose lines are a little others. Measured 0.0008.

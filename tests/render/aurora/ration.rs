@@ -108,7 +108,7 @@ fn fewer_streaks_are_wider_and_as_bright() {
         // Measured: 0.17 to 0.23 and 0.27 to 0.36, which is the rays that are washed out.
         for (part, limit) in [(0.5, 0.28), (0.25, 0.42)] {
             // Until so many are left.
-            let count = |frame: &FrameInput| frame.aurora.as_ref().unwrap().settings.counts[0];
+            let count = |frame: &FrameInput| frame.aurora.as_ref().unwrap().settings.streaks;
             while f64::from(count(&alone(&stage, size, &config))) > part * f64::from(count(&all)) && number < 40 {
                 number += 1;
                 stage.ration_aurora(&times(1.0, 1.0, 1.0, 1.0, number));

@@ -49,8 +49,8 @@ fn falls(spectrum: Spectrum) -> wgpu::Buffer {
 
 /// Settings that say no more than the heights between which those are drawn.
 fn heights(spectrum: Spectrum) -> wgpu::Buffer {
-    let [[top, foot], [red_top, red_foot]] = Quantiles::new(&spectrum).ends;
-    let settings = AuroraSettings { heights: [top, foot, red_top, red_foot], ..AuroraSettings::default() };
+    let [[green_top, green_foot], [red_top, red_foot]] = Quantiles::new(&spectrum).ends;
+    let settings = AuroraSettings { green_top, green_foot, red_top, red_foot, ..AuroraSettings::default() };
     let uniform = layout::buffer(&GPU.device, "aurora", size_of::<AuroraSettings>() as u64, wgpu::BufferUsages::UNIFORM);
     GPU.queue.write_buffer(&uniform, 0, bytemuck::bytes_of(&settings));
     uniform
@@ -299,7 +299,8 @@ fn the_box_of_a_stroke_holds_it() {
     // In units of a level's pixel: a blur that goes aslant, as narrow as is added there at all (the lesser eigenvalue is 0.6), and more and
     // more drawn out.
     let body = "let level = u32(row.x); let pixel = f32(1u << level); let u = vec2<f32>(cos(row.y), sin(row.y)); \
-                let shape = shape_of(level, u, row.w * pixel, vec3<f32>(row.z * row.z / 0.4 + 0.6, 1.0, row.z) * pixel * pixel); \
+                let blur = vec3<f32>(row.z * row.z / 0.4 + 0.6, 1.0, row.z) * pixel * pixel; \
+                let shape = shape_of(level, u, row.w * pixel, Blur(blur.x, blur.y, blur.z)); \
                 let around = box_of(vec2<f32>(0.0), shape, level); \
                 let corners = max(abs(shape.half + shape.side), abs(shape.half - shape.side)); \
                 twin_out[2u * id.x] = around; twin_out[2u * id.x + 1u] = vec4<f32>(corners, shape.sigma, dot(shape.side, u));";

@@ -43,7 +43,7 @@ fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Observer) -> Drawn {
     for (row, circle) in view.circles.iter().enumerate() {
         for column in (0..columns).step_by(2) {
             let azimuth = bearing(f64::from(view.cuts[column / 2]), f64::from(view.frame.steepness))[0] + origin;
-            grid.push((all[row * columns + column], f64::from(circle.gas[0]), azimuth, circle.rows[0]));
+            grid.push((all[row * columns + column], f64::from(circle.gas.radius), azimuth, circle.order));
         }
     }
     let counters = renderer.disk_counters().unwrap().unwrap();
@@ -81,7 +81,7 @@ pub fn exact(gas: &Gas, camera: &Observer, r: f64, azimuth: f64, order: Order) -
 }
 
 fn direction(vertex: &DiskVertex) -> DVec3 {
-    let [x, y, z, _] = vertex.apparent;
+    let [x, y, z] = vertex.apparent;
     DVec3::new(f64::from(x), f64::from(y), f64::from(z)).normalize()
 }
 
@@ -104,7 +104,7 @@ fn vertices_of_the_disk_land_where_they_are_seen() {
         for (vertex, r, azimuth, _) in drawn.grid.iter().filter(|row| row.3 == 1) {
             let Some((want, g)) = exact(&disk.gas, &camera, *r, *azimuth, Order::ALL[0]) else { continue };
             let off = direction(vertex).angle_between(want) / pixel;
-            let temperature = f64::from(vertex.gas[2]).exp();
+            let temperature = f64::from(vertex.ln_temperature).exp();
             let heat = (temperature / (g * disk.gas.radial.temperature(*r)) - 1.0).abs();
             assert!(off < 0.2, "L = {l}, {degrees}°, r = {r}, azimuth {azimuth}: {off} px off");
             assert!(heat < 2e-3, "L = {l}, {degrees}°, r = {r}, azimuth {azimuth}: T is {temperature}, off by {heat}");
@@ -179,12 +179,12 @@ fn edges_of_the_disk_are_right_to_half_a_pixel() {
         for (edge, r) in [(f64::max(inner, 1.0), inner), (outer, outer)] {
             let height = disk.gas.radial.pattern_radius(edge).ln() / lensrunner::scene::disk::PATTERN_HEIGHT;
             let lag = disk.gas.radial.lag(r);
-            let depth_there = |v: &DiskVertex| (f64::from(v.gas[1]) - height).abs() < 1e-6;
+            let depth_there = |v: &DiskVertex| (f64::from(v.pattern_height) - height).abs() < 1e-6;
             for triangle in &drawn.triangles {
                 for (i, j) in [(0, 1), (1, 2), (2, 0)] {
                     let (a, b) = (&drawn.all[triangle[i] as usize], &drawn.all[triangle[j] as usize]);
                     // Inside the last orbit all circles share one height in the pattern; the innermost has no gas.
-                    if !(depth_there(a) && depth_there(b)) || (r < 3.0 && (a.gas[3] > 0.0 || b.gas[3] > 0.0)) || a.gas[0] == b.gas[0] {
+                    if !(depth_there(a) && depth_there(b)) || (r < 3.0 && (a.depth > 0.0 || b.depth > 0.0)) || a.turns == b.turns {
                         continue;
                     }
                     let (da, db) = (direction(a), direction(b));
@@ -193,7 +193,7 @@ fn edges_of_the_disk_are_right_to_half_a_pixel() {
                     if !inside(pa) || !inside(pb) {
                         continue;
                     }
-                    let middle = 0.5 * (f64::from(a.gas[0]) + f64::from(b.gas[0])) * TAU + lag;
+                    let middle = 0.5 * (f64::from(a.turns) + f64::from(b.turns)) * TAU + lag;
                     let Some((want, _)) = exact(&disk.gas, &camera, r, middle, Order::ALL[0]) else { continue };
                     let Some(p) = camera.pixel(want, size) else { continue };
                     let (dx, dy) = (pb[0] - pa[0], pb[1] - pa[1]);
@@ -226,7 +226,7 @@ fn the_power_of_a_shifted_black_body_goes_as_the_fourth_power_of_g() {
     let mut span = (f64::INFINITY, 0.0f64);
     for (vertex, r, azimuth, _) in drawn.grid.iter().filter(|row| row.3 == 1 && row.1 > 3.5).step_by(7) {
         let Some((_, g)) = exact(&disk.gas, &camera, *r, *azimuth, Order::ALL[0]) else { continue };
-        let shown = f64::from(vertex.gas[2]).exp() / disk.gas.radial.temperature(*r);
+        let shown = f64::from(vertex.ln_temperature).exp() / disk.gas.radial.temperature(*r);
         let ratio = power(shown) / power(1.0);
         assert!((ratio / g.powi(4) - 1.0).abs() < 8e-3, "r = {r}: {ratio} instead of {}", g.powi(4));
         span = (span.0.min(g), span.1.max(g));

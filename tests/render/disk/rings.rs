@@ -93,12 +93,12 @@ fn rings_from_near_are_as_true_as_they_are_held_to_be() {
         let shining = |k: usize, side: usize| seen.iter().map(|c| light(c, k, side) * radial.depth(c.radius).min(1.0)).fold(0.0, f64::max);
         let brightest: [[f64; 2]; AZIMUTHS] = std::array::from_fn(|k| [0, 1].map(|side| shining(k, side)));
         let index = |row: u32| {
-            let radius = f64::from(view.circles[row as usize].gas[0]);
+            let radius = f64::from(view.circles[row as usize].gas.radius);
             all.iter().position(|r| (r - radius).abs() < 1e-4).expect("one of the circles")
         };
         let (mut worst, mut rings) = ([0.0f64; 4], 0);
-        for &[inside, outside, ..] in view.rings.iter().filter(|ring| ring[2] == 1) {
-            let [from, to] = [inside, outside].map(index);
+        for ring in view.rings.iter().filter(|ring| ring.order == 1) {
+            let [from, to] = [ring.inner, ring.outer].map(index);
             if to < from + 3 {
                 continue;
             }
@@ -112,7 +112,8 @@ fn rings_from_near_are_as_true_as_they_are_held_to_be() {
                     let t = before / (before - after);
                     assert!(t > 0.0 && t < 1.0, "r = {r}, azimuth {k}: seen at {t} of the ring");
                     let parabola = |start: f64, end: f64, bend: f64| start + t * (end - start) + 4.0 * t * (1.0 - t) * bend;
-                    let [height, bent, depth, bent_too] = view.bends[inside as usize * AZIMUTHS + k].map(f64::from);
+                    let bend = view.bends[ring.inner as usize * AZIMUTHS + k];
+                    let [height, bent, bent_too, depth] = [bend.height, bend.light, bend.other_light, bend.depth].map(f64::from);
                     let of = |value: &dyn Fn(f64) -> f64, bend: f64| parabola(value(a.radius), value(b.radius), bend) - value(r);
                     // The pattern's radius goes as its height's exponential. Gas whose light is older is turned back.
                     let aside = radial.pattern_radius(r) * of(&|r| radial.pattern_radius(r).ln(), PATTERN_HEIGHT * height).abs();

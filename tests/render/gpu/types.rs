@@ -6,10 +6,11 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 use lensrunner::render::aurora::ground::GroundLight;
 use lensrunner::render::aurora::rooms::{CORNERS, LIT_TILES};
 use lensrunner::render::aurora::{
-    AuroraSettings, BOTH_POLES, Colours, DEPTH_TILES, LEAST_DEPTH_TILE, LINEAR, PYRAMID, RED_EVERY, SHIFTS, SMOOTH, Segment,
+    AuroraSettings, BOTH_POLES, CHORD_END_BYTES, Colours, CurtainNode, DEPTH_TILES, LEAST_DEPTH_TILE, LINEAR, PYRAMID, RED_EVERY,
+    REFERENCE_BYTES, SHIFTS, SMOOTH, STROKE_BYTES, Segment,
 };
 use lensrunner::render::disk::circles::AZIMUTHS;
-use lensrunner::render::disk::types::{self as disk, Circle, DiskCounters, DiskFrame, DiskVertex};
+use lensrunner::render::disk::types::{self as disk, Circle, DiskCounters, DiskFrame, DiskVertex, RadialGas, Sprite, SpriteImage, Turning};
 use lensrunner::render::disk::view::THIN_SAMPLES;
 use lensrunner::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST};
 use lensrunner::render::gpu::layout::TABLE_ROW;
@@ -17,7 +18,7 @@ use lensrunner::render::gpu::library::{Library, Values, Worldlines};
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::gpu::targets::TILE;
 use lensrunner::render::gpu::types::{
-    self, Cap, Capacity, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, SeenVertex, Star,
+    self, Adaptation, Cap, Capacity, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, SeenVertex, Star,
 };
 use lensrunner::render::gpu::types::{flags, placed};
 use lensrunner::render::method::Method;
@@ -31,6 +32,10 @@ use wgpu::naga::{Expression, Literal, Module};
 use crate::layout::{Numbers, fields, fields_of, struct_of};
 
 impl Numbers for Cap {
+    const FLOAT: bool = true;
+}
+
+impl Numbers for RadialGas {
     const FLOAT: bool = true;
 }
 
@@ -53,6 +58,8 @@ fn with_struct(path: &str) -> Module {
         "sky::cells::CellDraws" => Pass::SkyCells.module(),
         "geometry::arguments::Arguments" => Pass::Arguments.module(),
         "disk::arcs::arguments::DiskArguments" => Pass::DiskArguments.module(),
+        "disk::polygons::Turning" => Pass::DiskPolygons.module(),
+        "disk::sprites::Sprite" | "disk::sprites::SpriteImage" => Pass::DiskSprites.module(),
         _ => composed(&format!("var<workgroup> variable: lensrunner::{path};")),
     }
 }
@@ -68,6 +75,7 @@ fn structs_have_one_layout_in_both_languages() {
             exposure_known, unmetered_middle, unmetered_radius, exposure_key, disk_indices, exposure_key_without_disk, most_rise,
             rise_per_luminance, unused),
         ),
+        ("gpu::types::Adaptation", fields!(Adaptation: exposure, metered, known, steadied)),
         ("gpu::types::Capacity", fields!(Capacity: vertices, indices, work, thin)),
         (
             "gpu::types::Instance",
@@ -106,12 +114,29 @@ fn structs_have_one_layout_in_both_languages() {
             contrast, filled, error_budget, least_width, columns, arcs, rows, rings, regions, vertex_room, near_orders, thickness,
             regions_end, unit, close, most_looks, unused, offset, offset_step),
         ),
-        ("disk::types::Circle", fields!(Circle: gas, motion, place, rows)),
-        ("disk::types::DiskVertex", fields!(DiskVertex: apparent, gas, more, bend)),
+        ("disk::types::RadialGas", fields!(RadialGas: radius, lead, ln_temperature, depth, outward, along, half_height, pattern_height)),
+        (
+            "disk::types::Circle",
+            fields!(Circle: gas, beyond, gap_radius, gap, gap_sides, order, first_row, last_row, first_sample, nearer_depth,
+            nearer_outward, nearer_along, nearer_radius),
+        ),
+        (
+            "disk::types::DiskVertex",
+            fields!(DiskVertex: apparent, path, turns, pattern_height, ln_temperature, depth, ln_g, cosine, filled, from_middle, half_width,
+            bend_height, bend_light, bend_depth, side),
+        ),
+        ("disk::polygons::Turning", fields!(Turning: rate, azimuth)),
+        ("disk::sprites::Sprite", fields!(Sprite: radius, sigma, step)),
+        ("disk::sprites::SpriteImage", fields!(SpriteImage: order, ring_width, count, end)),
         ("disk::types::Counters", fields!(DiskCounters: vertices, indices, arcs, coarse, caught, stage)),
-        ("aurora::streaks::AuroraSettings", fields!(AuroraSettings: counts, history, clock, strokes, heights)),
-        ("aurora::streaks::Segment", fields!(Segment: range, light)),
-        ("aurora::levels::lit_corners::Lines", fields!(Colours: lines ["colours"], steps, tile)),
+        (
+            "aurora::streaks::AuroraSettings",
+            fields!(AuroraSettings: streaks, chords, parts, row_nodes, newest_row, segments, room, flags, row_seconds, ahead, clock, contrast,
+            point, levels, midnight, green_top, green_foot, red_top, red_foot),
+        ),
+        ("aurora::streaks::Segment", fields!(Segment: first_streak, streaks, first_node, span, collisions, width, length)),
+        ("aurora::streaks::CurtainNode", fields!(CurtainNode: place, flux, along)),
+        ("aurora::levels::lit_corners::Lines", fields!(Colours: lines ["colours"], slope, tile, middle)),
     ];
     for (path, rust) in cases {
         assert_eq!(fields_of(&with_struct(path), path), rust, "{path}");
@@ -127,6 +152,11 @@ fn structs_that_only_shaders_know_have_the_sizes_that_rust_reserves() {
         ("geometry::arguments::Arguments", types::ARGUMENTS_BYTES),
         ("gpu::types::SkyCorner", types::SKY_CORNER_BYTES),
         ("disk::arcs::arguments::DiskArguments", disk::ARGUMENTS_BYTES),
+        ("disk::types::Segments", disk::SEGMENTS_BYTES),
+        ("disk::types::Job", disk::JOB_BYTES),
+        ("aurora::streaks::ChordEnd", CHORD_END_BYTES),
+        ("aurora::streaks::Reference", REFERENCE_BYTES),
+        ("aurora::stroke::Stroke", STROKE_BYTES),
         ("disk::sprites_types::SeenSprite", disk::SEEN_SPRITE_BYTES),
     ];
     for (path, bytes) in cases {

@@ -46,7 +46,7 @@ impl ChordInputs<'_, '_> {
     /// Number of chords for the streaks of these parts, in images of these orders. `middle(part, s)` is where the middle of a part was `s`
     /// seconds before, in km in the plane across the field: light is delayed in a curtain that moves.
     pub fn chords(&self, segments: &[Segment], middle: impl Fn(&Segment, f64) -> DVec2, orders: &[Order], flags: u32) -> u32 {
-        let streaks: usize = segments.iter().map(|segment| segment.range[2] as usize).sum();
+        let streaks: usize = segments.iter().map(|segment| segment.streaks as usize).sum();
         let ends = |chords: usize| streaks * (2 * chords + 1) * orders.len();
         let poles: &[f64] = if flags & BOTH_POLES != 0 { &[1.0, -1.0] } else { &[1.0] };
         let axis = self.view.camera.position.normalize();

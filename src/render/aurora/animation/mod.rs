@@ -185,11 +185,11 @@ impl AuroraAnimation {
         let ahead = if self.watched { self.go_on(time * self.config.pace) } else { self.advance(time * self.config.pace) };
         let midnight = self.midnight(&globe);
         self.draw_streaks(&mut frame, &globe, ahead);
-        frame.settings.strokes[2..].copy_from_slice(&midnight.as_vec2().to_array());
+        frame.settings.midnight = midnight.as_vec2().to_array();
         frame.ground = self.ground(midnight, ahead, widest);
         frame.rows = self.rows.clone();
         frame.falls = self.falls.table.clone();
-        frame.segments.last().is_some_and(|segment| segment.range[0] + segment.range[2] > 0).then_some(frame)
+        frame.segments.last().is_some_and(|segment| segment.first_streak + segment.streaks > 0).then_some(frame)
     }
 
     /// The planet's images that show the aurora, with the colours of each, and the width of the widest, pixels.
@@ -262,7 +262,7 @@ impl AuroraAnimation {
             collisions: self.collisions(),
         };
         let segments = curtains.segments(globe);
-        let streaks = segments.last().map_or(0, |segment| segment.range[0] + segment.range[2]);
+        let streaks = segments.last().map_or(0, |segment| segment.first_streak + segment.streaks);
         let mut flags = if self.config.walk == "linear" { LINEAR } else { 0 };
         if curtains.both {
             flags |= BOTH_POLES;
@@ -281,12 +281,27 @@ impl AuroraAnimation {
         let room = (streaks as usize * parts as usize).min(MOST_STROKES);
         let levels = curtains.levels(globe, &segments, self.planet.radius * REACH);
         let clock = (globe.time * self.config.pace).rem_euclid(RAYS_PERIOD);
+        let [[green_top, green_foot], [red_top, red_foot]] = self.falls.ends;
         frame.settings = AuroraSettings {
-            counts: [streaks, chords, parts, self.rows.ago(0).len() as u32],
-            history: [self.rows.newest() as u32, segments.len() as u32, room as u32, flags],
-            clock: [ROW as f32, ahead as f32, clock as f32, self.config.contrast as f32],
-            strokes: [self.config.radius as f32, levels as f32, 0.0, 0.0],
-            heights: [0, 1, 2, 3].map(|k| self.falls.ends[k / 2][k % 2]),
+            streaks,
+            chords,
+            parts,
+            row_nodes: self.rows.ago(0).len() as u32,
+            newest_row: self.rows.newest() as u32,
+            segments: segments.len() as u32,
+            room: room as u32,
+            flags,
+            row_seconds: ROW as f32,
+            ahead: ahead as f32,
+            clock: clock as f32,
+            contrast: self.config.contrast as f32,
+            point: self.config.radius as f32,
+            levels,
+            midnight: [0.0; 2],
+            green_top,
+            green_foot,
+            red_top,
+            red_foot,
         };
         frame.segments = segments;
     }

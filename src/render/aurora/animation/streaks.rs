@@ -1,9 +1,9 @@
 //! How many streaks are drawn where: parts of the curtains, and how finely each streak is drawn.
 
 use super::planet_view::PlanetView;
-use crate::render::aurora::Segment;
 use crate::render::aurora::levels::PYRAMID;
 use crate::render::aurora::node_history::place as node_position;
+use crate::render::aurora::{CurtainNode, Segment};
 use crate::scene::aurora::curve::Curve;
 use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT, on_field_line};
 use crate::scene::aurora::motion::Motion;
@@ -45,7 +45,7 @@ pub struct Curtains<'a> {
     /// As they move.
     pub motion: &'a Motion,
     /// Their nodes, as the shaders have them.
-    pub row: &'a [[f32; 4]],
+    pub row: &'a [CurtainNode],
     /// Whether they are at both poles.
     pub both: bool,
     /// The part of their streaks that they are drawn with.
@@ -112,8 +112,13 @@ impl Curtains<'_> {
                 // In kR km².
                 let energy = self.collisions * length * span as f64 * curve.width * poles;
                 segments.push(Segment {
-                    range: [first, first_node as u32, count, span as u32],
-                    light: [energy as f32, curve.width as f32, kilometres as f32, 0.0],
+                    first_streak: first,
+                    streaks: count,
+                    first_node: first_node as u32,
+                    span: span as u32,
+                    collisions: energy as f32,
+                    width: curve.width as f32,
+                    length: kilometres as f32,
                 });
                 first += count;
                 k += span;
@@ -143,7 +148,6 @@ impl Curtains<'_> {
 /// Standard deviation, in km, of the light of a part's streaks across the curtain or, where streaks stand far apart, along it: the larger
 /// of the two, for the red streaks, which stand farthest apart. As in streaks.wgsl.
 fn spread(segment: &Segment, poles: u32) -> f64 {
-    let [_, width, length, _] = segment.light.map(f64::from);
-    let apart = length * f64::from(RED_EVERY * poles) / f64::from(segment.range[2].max(1));
-    (width / 12f64.sqrt()).max(apart / SMOOTH)
+    let apart = f64::from(segment.length) * f64::from(RED_EVERY * poles) / f64::from(segment.streaks.max(1));
+    (f64::from(segment.width) / 12f64.sqrt()).max(apart / SMOOTH)
 }
