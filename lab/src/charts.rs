@@ -8,8 +8,8 @@ use lensrunner::argument::whole;
 use lensrunner_lab::chart::{ChartError, Output, announce};
 use lensrunner_lab::projection::race::Race;
 use lensrunner_lab::{
-    aurora, bvh, dial, disk, drivers, flight, frame_times, hands_frames, motion, overlay_cost, projection, quarry, soak,
-    steps, tessellation, thin_disk, window_rates,
+    aurora, bvh, dial, disk, drivers, flight, frame_times, hands_frames, motion, overlay_cost, projection, quarry, soak, steps,
+    tessellation, thin_disk, window_rates,
 };
 
 use crate::fail;
