@@ -139,7 +139,7 @@ impl Aurora {
         let in_use = (settings.strokes[1] as u32).clamp(1, PYRAMID);
         settings.strokes[1] = in_use as f32;
         let rooms = Rooms { finest: u64::from(settings.history[2]), levels: in_use };
-        let mut replaced = self.groups.is_none() || in_use != self.rooms.levels;
+        let mut replaced = in_use != self.rooms.levels;
         self.rooms = rooms;
         replaced |= self.write_rows(gpu, &frame.rows);
         // They change only with the keys of the spectrum.
@@ -159,7 +159,7 @@ impl Aurora {
         }
         replaced |= self.ranges.prepare(device, &targets.depth, targets.size);
         if replaced {
-            self.groups = self.make_groups(device);
+            self.groups = None;
         }
         gpu.queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
         gpu.queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&frame.instances[..orders]));
@@ -189,6 +189,13 @@ impl Aurora {
         }
         self.uploaded_rows = rows.clone();
         replaced
+    }
+
+    /// Makes the bind groups of a prepared frame, where buffers are others than before.
+    pub fn bind(&mut self, device: &wgpu::Device) {
+        if self.groups.is_none() {
+            self.groups = self.make_groups(device);
+        }
     }
 
     fn make_groups(&self, device: &wgpu::Device) -> Option<VeilGroups> {
