@@ -35,7 +35,7 @@ fn load(mut commands: Commands, table: Res<LensingTable>, mut drawn: ResMut<Scen
 }
 
 /// Swings a hovering camera to and fro, so that the model's image opens to a ring and closes again.
-fn draw(staged: Res<Staged>, time: Res<Time>, windows: Query<&Window, With<PrimaryWindow>>, mut frame: ResMut<FrameToDraw>) {
+fn draw(mut staged: ResMut<Staged>, time: Res<Time>, windows: Query<&Window, With<PrimaryWindow>>, mut frame: ResMut<FrameToDraw>) {
     let Some(window) = windows.iter().next() else { return };
     let angle = 0.1 * time.elapsed_secs_f64().sin();
     let position = 12.0 * DVec3::new(angle.sin(), 0.0, angle.cos());

@@ -71,7 +71,7 @@ fn original(view: CameraView) -> (Picture, Snapshot) {
     let hidden = (view == CameraView::Cockpit).then_some(me);
     let levelled = scene.config(&config, flight.difficulty);
     let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, SIZE);
-    let stage = Stage::new(&mut renderer, &scene, &levelled);
+    let mut stage = Stage::new(&mut renderer, &scene, &levelled);
     let engines = Some([config.ship.thrust, config.enemy.thrust]);
     let settings = Settings { own_ship: Some(me), engines, ..settings(&config) };
     let picture = renderer.picture(&stage.frame(camera, SIZE, time, &histories, hidden, &settings), true).unwrap();
@@ -174,7 +174,7 @@ fn frames_of_the_demonstration_are_made_again() {
         let adaptation = if frame == 0 { 1.0 } else { (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32 };
         let engines = Some([config.ship.thrust, config.enemy.thrust]);
         let settings = Settings { own_ship: shot.lit, engines, adaptation, ..settings(&config) };
-        let stage = Stage::new(&mut renderer, &moment.scene, &snapshot.levelled(&moment.scene));
+        let mut stage = Stage::new(&mut renderer, &moment.scene, &snapshot.levelled(&moment.scene));
         let input = stage.frame(shot.camera, SIZE, snapshot.time, &moment.all_histories(), shot.hidden, &settings);
         assert!(renderer.prepare(&input));
         let mut encoder = GPU.device.create_command_encoder(&Default::default());

@@ -30,10 +30,10 @@ impl Contestant {
     /// judge of their own and are left out.
     pub fn draw(&self, case: &Case) -> Result<Frame, String> {
         self.with_renderer(case, |renderer| {
-            let stage = staged(renderer, case, None);
+            let mut stage = staged(renderer, case, None);
             let [sky, bare] = [
-                drawn(renderer, case, &stage, false, self.with(case, true))?,
-                drawn(renderer, case, &stage, false, self.with(case, false))?,
+                drawn(renderer, case, &mut stage, false, self.with(case, true))?,
+                drawn(renderer, case, &mut stage, false, self.with(case, false))?,
             ];
             let [first, second] = MARKS.map(|mark| marked(renderer, case, mark, self.with(case, false)));
             let (first, second) = (first?, second?);
@@ -85,8 +85,8 @@ fn renderer(size: [u32; 2]) -> Result<Renderer, DeviceError> {
 
 /// The picture with layers, without the sky, of models marked so.
 fn marked(renderer: &mut Renderer, case: &Case, mark: fn(&Model) -> Model, settings: Settings) -> Result<Picture, DrawError> {
-    let stage = staged(renderer, case, Some(mark));
-    drawn(renderer, case, &stage, true, settings)
+    let mut stage = staged(renderer, case, Some(mark));
+    drawn(renderer, case, &mut stage, true, settings)
 }
 
 fn staged(renderer: &mut Renderer, case: &Case, mark: Option<fn(&Model) -> Model>) -> Stage {
@@ -96,7 +96,7 @@ fn staged(renderer: &mut Renderer, case: &Case, mark: Option<fn(&Model) -> Model
     Stage::of(renderer, &case.scene, case.assembly.clone(), &config, mark)
 }
 
-fn drawn(renderer: &mut Renderer, case: &Case, stage: &Stage, layers: bool, settings: Settings) -> Result<Picture, DrawError> {
+fn drawn(renderer: &mut Renderer, case: &Case, stage: &mut Stage, layers: bool, settings: Settings) -> Result<Picture, DrawError> {
     let histories: Vec<_> = case.histories.iter().collect();
     let frame = stage.frame(case.camera.observer, case.camera.size, case.time, &histories, case.hidden, &settings);
     let picture = renderer.picture(&frame, layers)?;

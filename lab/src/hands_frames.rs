@@ -91,7 +91,7 @@ fn fly(gpu: &Gpu, name: &str, pace: f64, seed: u64, frames: usize, size: [u32; 2
     config.clock.pace = pace;
     let config = scene.config(&config, Difficulty::Easy);
     let mut offscreen = Offscreen::new(gpu, size);
-    let stage = Stage::new(&mut offscreen.renderer, &scene, &config).watched();
+    let mut stage = Stage::new(&mut offscreen.renderer, &scene, &config).watched();
     let own = own_ship(&scene);
     let mut drawn: Vec<Drawn> = Vec::new();
     let (mut coarse, mut not_finite, mut calmed, mut done) = (0, 0, 0, 0);

@@ -105,7 +105,7 @@ fn show(gpu: &Gpu, frames: u64, sheet: &mut Sheet) -> Result<(), ChartError> {
     let mut done = 0;
     for round in 0.. {
         let scene = scene::load(SCENES[round % SCENES.len()])?;
-        let stage = Stage::new(&mut offscreen.renderer, &scene, &config);
+        let mut stage = Stage::new(&mut offscreen.renderer, &scene, &config);
         // By hands, who throw the ship about.
         let mut moment = Moment::with_crew(&scene, &config, 1, Crew::Hands);
         moment.advance((AT / config.clock.step).round() as u64);

@@ -1,12 +1,17 @@
 //! [`RelativisticRenderPlugin`]: the renderer inside Bevy. The main world says what to draw ([`SceneToDraw`], [`FrameToDraw`]); the render
 //! world owns the [`Renderer`], draws it into the view of the 2-D camera, after Bevy's own passes and under the user interface, and gives
 //! [`RenderStatistics`] back.
+//!
+//! Each step of the renderer is a system of its own, in Bevy's phase for it: extracted by `take_frame`, planned by `plan_frame` in `Queue`,
+//! uploaded by `prepare_resources`, bound by `prepare_bind_groups`, and recorded by `draw` among the passes of the camera.
 
 use std::sync::{Arc, OnceLock};
 
 use bevy::core_pipeline::core_2d::main_transparent_pass_2d;
 use bevy::core_pipeline::{Core2d, Core2dSystems};
 use bevy::prelude::*;
+use bevy::render::camera::SortedCameras;
+use bevy::render::diagnostic::RecordDiagnostics;
 use bevy::render::renderer::{RenderAdapterInfo, RenderContext, RenderDevice, RenderQueue, ViewQuery};
 use bevy::render::view::ViewTarget;
 use bevy::render::{Extract, ExtractSchedule, MainWorld, Render, RenderApp, RenderStartup, RenderSystems};
@@ -47,13 +52,19 @@ pub struct RenderStatistics {
     pub counting: bool,
     /// Duration of each pass on the GPU, in ms; empty where it has no timestamps.
     pub passes: Vec<(&'static str, f32)>,
+    /// What the processor did to prepare and record the last frame, in ms.
+    pub work: Vec<(&'static str, f32)>,
     /// What the stages of the geometry counted.
     pub counters: Option<Counters>,
     /// What the stages of the disk counted, in a scene that has one.
     pub disk: Option<DiskCounters>,
 }
 
-/// Draws [`FrameToDraw`] into the view of every 2-D camera. Add it after Bevy's `RenderPlugin`. Passes are compiled on a thread of their
+/// Render world: the view that the frame is planned for; None if there is nothing to draw.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+struct PlannedView(Option<Entity>);
+
+/// Draws [`FrameToDraw`] into the view of the 2-D camera; of several, into that of the first by their order. Add it after Bevy's `RenderPlugin`. Passes are compiled on a thread of their
 /// own; until then nothing is drawn. If there is no device, or one that is too small, the app ends with an error.
 pub struct RelativisticRenderPlugin {
     /// Makes table, stars, Milky Way; called on a thread of its own.
@@ -77,9 +88,19 @@ impl Plugin for RelativisticRenderPlugin {
             .insert_resource(making)
             .init_resource::<FrameToDraw>()
             .init_resource::<SceneToDraw>()
+            .init_resource::<PlannedView>()
             .add_systems(RenderStartup, make_renderer)
             .add_systems(ExtractSchedule, (take_frame, exchange).chain().run_if(resource_exists::<Workshop>))
-            .add_systems(Render, put_scene.in_set(RenderSystems::PrepareResources).run_if(resource_exists::<Workshop>))
+            .add_systems(
+                Render,
+                (
+                    put_scene.in_set(RenderSystems::PrepareAssets),
+                    plan_frame.in_set(RenderSystems::Queue),
+                    prepare_resources.in_set(RenderSystems::PrepareResources),
+                    prepare_bind_groups.in_set(RenderSystems::PrepareBindGroups),
+                )
+                    .run_if(resource_exists::<Workshop>),
+            )
             .add_systems(Core2d, draw.after(main_transparent_pass_2d).in_set(Core2dSystems::MainPass).run_if(resource_exists::<Workshop>));
     }
 
@@ -161,6 +182,8 @@ fn exchange(mut main: ResMut<MainWorld>, mut workshop: ResMut<Workshop>, mut sai
     renderer.set_counting(statistics.counting);
     statistics.passes.clear();
     statistics.passes.extend_from_slice(renderer.timing().latest());
+    statistics.work.clear();
+    statistics.work.extend_from_slice(renderer.timing().work());
     (statistics.counters, statistics.disk) = renderer.latest_counters();
 }
 
@@ -170,13 +193,15 @@ fn put_scene(scene: Res<SceneToDraw>, mut workshop: ResMut<Workshop>) {
     }
 }
 
-fn draw(
-    view: ViewQuery<&ViewTarget>,
+/// Plans the frame for the view of the first 2-D camera that has one. Without a view, as in a minimised window, all stays as it was.
+fn plan_frame(
+    (cameras, views): (Res<SortedCameras>, Query<&ViewTarget, With<Camera2d>>),
     (frame, scene): (Res<FrameToDraw>, Res<SceneToDraw>),
     mut workshop: ResMut<Workshop>,
-    mut context: RenderContext,
+    mut planned: ResMut<PlannedView>,
 ) {
-    let target = view.into_inner();
+    planned.0 = None;
+    let Some((view, target)) = cameras.0.iter().find_map(|camera| Some((camera.entity, views.get(camera.entity).ok()?))) else { return };
     let size = target.main_texture().size();
     // Until a scene is there, its frames name models that are not.
     let is_there = scene.0.as_ref().is_some_and(|scene| workshop.ready().is_some_and(|ready| Arc::ptr_eq(ready, scene)));
@@ -187,12 +212,34 @@ fn draw(
     };
     renderer.set_output_format(target.main_texture_format());
     renderer.resize([size.width, size.height]);
-    if input.camera.radius() < NEAR_THE_HORIZON {
-        renderer.precompile_the_inside();
-    }
-    if renderer.prepare(input) {
-        renderer.encode(context.command_encoder(), target.main_texture_view());
+    if renderer.plan(input) {
+        planned.0 = Some(view);
     } else {
         renderer.nothing_shown();
     }
+}
+
+fn prepare_resources(planned: Res<PlannedView>, frame: Res<FrameToDraw>, mut workshop: ResMut<Workshop>) {
+    let (Some(_), Some(input), Some(renderer)) = (planned.0, &frame.0, workshop.renderer()) else { return };
+    if input.camera.radius() < NEAR_THE_HORIZON {
+        renderer.precompile_the_inside();
+    }
+    renderer.prepare_resources(input);
+}
+
+fn prepare_bind_groups(planned: Res<PlannedView>, mut workshop: ResMut<Workshop>) {
+    if let (Some(_), Some(renderer)) = (planned.0, workshop.renderer()) {
+        renderer.prepare_bind_groups();
+    }
+}
+
+/// Records the passes of the frame that is prepared for this view. [`RenderDiagnosticsPlugin`](bevy::render::diagnostic::RenderDiagnosticsPlugin)
+/// gets their time together.
+fn draw(view: ViewQuery<&ViewTarget>, planned: Res<PlannedView>, mut workshop: ResMut<Workshop>, mut context: RenderContext) {
+    let Some(renderer) = workshop.renderer().filter(|_| planned.0 == Some(view.entity())) else { return };
+    let diagnostics = context.diagnostic_recorder();
+    let diagnostics = diagnostics.as_deref();
+    let span = diagnostics.time_span(context.command_encoder(), "relativistic");
+    renderer.encode(context.command_encoder(), view.into_inner().main_texture_view());
+    span.end(context.command_encoder());
 }

@@ -97,7 +97,7 @@ pub fn shot(request: &ShotRequest, config: &GameConfig) -> Result<Picture, ShotE
     let scene = scene::load(request.scene)?;
     let gpu = Gpu::headless()?;
     let mut renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, request.size);
-    let stage = Stage::new(&mut renderer, &scene, config);
+    let mut stage = Stage::new(&mut renderer, &scene, config);
     let moment = Moment::new(&scene, config, request.at, 0);
     scene.camera.check(moment.time(), &moment.ships())?;
     let camera = stage.camera(moment.time(), &moment.ships());
@@ -113,7 +113,7 @@ pub fn shot_again(snapshot: &Snapshot, moment: &Moment, size: [u32; 2], layers: 
     let (config, shot) = (snapshot.config(), &snapshot.shot);
     let gpu = Gpu::headless()?;
     let mut renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    let stage = Stage::new(&mut renderer, &moment.scene, &snapshot.levelled(&moment.scene));
+    let mut stage = Stage::new(&mut renderer, &moment.scene, &snapshot.levelled(&moment.scene));
     let settings =
         Settings { own_ship: shot.lit.filter(|_| fill), engines: Some([config.ship.thrust, config.enemy.thrust]), ..settings(&config) };
     let frame = stage.frame(shot.camera, size, snapshot.time, &moment.all_histories(), shot.hidden, &settings);

@@ -1,7 +1,7 @@
 //! A scene on the renderer: its models uploaded, and a frame made of its objects at any T.
 
 use crate::spacetime::Observer;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
@@ -45,8 +45,8 @@ pub struct Stage {
     planet: Option<Planet>,
     /// Inner and outer radius of the disk.
     disk: Option<[f64; 2]>,
-    /// Shared, because a stage is only read when it makes a frame.
-    animation: Arc<Mutex<Option<AuroraAnimation>>>,
+    /// What of a stage goes on from frame to frame: the aurora of the planet, if it has one.
+    animation: Option<AuroraAnimation>,
 }
 
 /// How far a stand-in may move a vertex where half a pixel is allowed, in pixels: chords have the rest.
@@ -127,39 +127,34 @@ impl Stage {
             engines: scene.ships.iter().map(|ship| (ship.ai == Ai::Flee && !ship.player, ship.max_thrust)).collect(),
             planet: scene.planet,
             disk,
-            animation: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| AuroraAnimation::new(planet, disk, &config.aurora)))),
+            animation: scene.planet.as_ref().and_then(|planet| AuroraAnimation::new(planet, disk, &config.aurora)),
         };
         (stage, upload)
     }
 
     /// Limits the aurora's simulation per frame, for scenes that are watched as they run. Its state then depends on earlier frames.
     pub fn watched(self) -> Stage {
-        let mut animation = self.animation.lock().unwrap_or_else(PoisonError::into_inner);
-        *animation = animation.take().map(AuroraAnimation::watched);
-        drop(animation);
-        self
+        Stage { animation: self.animation.map(AuroraAnimation::watched), ..self }
     }
 
     /// Gives the aurora other settings; nothing else is made anew. For a stage in real time.
-    pub fn change_aurora(&self, config: &AuroraConfig) {
-        let mut animation = self.animation.lock().unwrap_or_else(PoisonError::into_inner);
-        if animation.as_mut().is_none_or(|animation| !animation.change(config)) {
-            *animation =
+    pub fn change_aurora(&mut self, config: &AuroraConfig) {
+        if self.animation.as_mut().is_none_or(|animation| !animation.change(config)) {
+            self.animation =
                 self.planet.as_ref().and_then(|planet| AuroraAnimation::new(planet, self.disk, config)).map(AuroraAnimation::watched);
         }
     }
 
     /// Lets the aurora follow the times (ms) of all passes of an earlier frame: it takes no more than `aurora.share` of them.
-    pub fn ration_aurora(&self, passes: &[(&str, f32)]) {
-        if let Some(animation) = self.animation.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
+    pub fn ration_aurora(&mut self, passes: &[(&str, f32)]) {
+        if let Some(animation) = &mut self.animation {
             animation.ration(passes);
         }
     }
 
     /// What of it takes time.
     pub fn class(&self) -> SceneClass {
-        let has_aurora = self.animation.lock().unwrap_or_else(PoisonError::into_inner).is_some();
-        SceneClass::of(!self.objects.is_empty(), self.disk.is_some(), has_aurora)
+        SceneClass::of(!self.objects.is_empty(), self.disk.is_some(), self.animation.is_some())
     }
 
     /// The scene's own camera at T = `time`; `ships` are the states of the ships then, by name.
@@ -178,7 +173,7 @@ impl Stage {
     /// that of the ghost and those of the bolts. `hidden` is a ship that is not
     /// drawn (the cockpit's own); `size` is that of the picture in pixels.
     pub fn frame(
-        &self,
+        &mut self,
         camera: Observer,
         size: [u32; 2],
         time: f64,
@@ -245,10 +240,8 @@ impl Stage {
     }
 
     /// The planet's aurora at T = `time`, if it has one and that is seen; light comes from `back` r_s/c before at most.
-    fn aurora(&self, view: &View, time: f64, back: f64) -> Option<AuroraFrame> {
-        self.planet.as_ref()?;
-        let mut animation = self.animation.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut aurora = animation.as_mut()?.frame(view, time, back, view.settings.orders)?;
+    fn aurora(&mut self, view: &View, time: f64, back: f64) -> Option<AuroraFrame> {
+        let mut aurora = self.animation.as_mut()?.frame(view, time, back, view.settings.orders)?;
         // Only the planet is lit by it.
         let globe = self.objects.iter().position(|(object, _)| object.body == Body::Planet);
         if let (Some(ground), Some(number)) = (aurora.ground.as_mut(), globe) {

@@ -15,7 +15,7 @@ fn light(share: f64, until: f64, follows: bool) -> f64 {
     let (config, scene) = (GameConfig::default(), scene::load("chase").unwrap());
     let size = [160, 90];
     let mut renderer = renderer(size);
-    let stage = Stage::new(&mut renderer, &scene, &config);
+    let mut stage = Stage::new(&mut renderer, &scene, &config);
     let mut state = scene.ships.iter().find(|ship| ship.player).unwrap().state;
     let mut history = History::new(0.0, &state);
     for k in 1..=64 {

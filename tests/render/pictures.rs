@@ -20,7 +20,7 @@ fn picture(name: &str, size: [u32; 2]) -> (Picture, Observer) {
     let scene = scene::load(name).unwrap();
     let config = GameConfig::default();
     let mut renderer = renderer(size);
-    let stage = lensrunner::render::stage::Stage::new(&mut renderer, &scene, &config);
+    let mut stage = lensrunner::render::stage::Stage::new(&mut renderer, &scene, &config);
     let camera = stage.camera(0.0, &[]);
     let frame = stage.frame(camera, size, 0.0, &[], None, &settings());
     (renderer.picture(&frame, true).unwrap(), camera)

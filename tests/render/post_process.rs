@@ -17,7 +17,7 @@ use crate::render::support::surroundings;
 fn picture(name: &str, size: [u32; 2], settings: &Settings) -> Picture {
     let scene = scene::load(name).unwrap();
     let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    let stage = Stage::new(&mut renderer, &scene, &GameConfig::default());
+    let mut stage = Stage::new(&mut renderer, &scene, &GameConfig::default());
     let frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, settings);
     renderer.picture(&frame, true).unwrap()
 }
@@ -116,7 +116,7 @@ fn a_chase_of(size: [u32; 2]) -> ([u32; 2], GameConfig, Renderer, Stage, Moment)
 /// all of it.
 #[test]
 fn the_own_ship_is_lit_for_the_exposure() {
-    let (size, config, mut renderer, stage, moment) = a_chase();
+    let (size, config, mut renderer, mut stage, moment) = a_chase();
     let mut draw = |own_ship, exposure: f32| {
         let settings =
             Settings { own_ship, exposure_range: [exposure; 2], bloom: 0.0, smooth: false, orders: 1, ..stage::settings(&config) };
@@ -162,7 +162,7 @@ fn the_own_ship_is_lit_for_the_exposure() {
 /// A ship that is lit as white as one likes moves the exposure of nothing else: the finished picture beside it stays as it is.
 #[test]
 fn the_own_ship_is_not_metered() {
-    let (size, config, mut renderer, stage, moment) = a_chase();
+    let (size, config, mut renderer, mut stage, moment) = a_chase();
     let mut draw = |fill| {
         let settings = Settings { own_ship: Some(0), fill, bloom: 0.0, smooth: false, orders: 1, ..stage::settings(&config) };
         let frame = stage.frame(stage.camera(0.0, &moment.ships()), size, 0.0, &moment.histories(), None, &settings);
@@ -189,10 +189,10 @@ fn lit_ship(ship: &[usize], pixel: usize, size: [u32; 2]) -> bool {
 /// the images come to lie in tiles that they were in, at other places.
 #[test]
 fn thin_images_leave_nothing_behind() {
-    let (size, config, mut renderer, stage, moment) = a_chase_of([480, 270]);
+    let (size, config, mut renderer, mut stage, moment) = a_chase_of([480, 270]);
     let settings = Settings { stars: false, milky_way: false, ..stage::settings(&config) };
     let camera = stage.camera(moment.time(), &moment.ships());
-    let turned = |degrees: f64| {
+    let mut turned = |degrees: f64| {
         let attitude = camera.attitude * glam::DQuat::from_rotation_y(degrees.to_radians());
         stage.frame(Observer { attitude, ..camera }, size, moment.time(), &moment.histories(), None, &settings)
     };

@@ -18,7 +18,7 @@ const WARM: usize = 4;
 fn makes(renderer: &mut Renderer, scene: &str) -> Vec<u64> {
     let config = GameConfig::default();
     let scene = load(scene).unwrap();
-    let stage = Stage::new(renderer, &scene, &config);
+    let mut stage = Stage::new(renderer, &scene, &config);
     let moment = Moment::new(&scene, &config, 2.0, 1);
     let (_, view) = target(&GPU.device, "steady", SIZE, wgpu::TextureFormat::Rgba8UnormSrgb);
     let finest = settings(&config);

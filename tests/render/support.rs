@@ -49,7 +49,7 @@ pub fn settings() -> Settings {
 }
 
 /// The aurora alone: no planet, no sky.
-pub fn aurora_alone(stage: &Stage, camera: Observer, size: [u32; 2], time: f64, config: &GameConfig) -> FrameInput {
+pub fn aurora_alone(stage: &mut Stage, camera: Observer, size: [u32; 2], time: f64, config: &GameConfig) -> FrameInput {
     let mut settings = stage::settings(config);
     (settings.stars, settings.milky_way, settings.bloom) = (false, false, 0.0);
     let mut frame = stage.frame(camera, size, time, &[], None, &settings);

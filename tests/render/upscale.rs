@@ -45,7 +45,7 @@ fn a_small_picture_is_enlarged_as_in_rust() {
     let (small, output) = ([96, 54], [160, 90]);
     let scene = scene::load("ring").unwrap();
     let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, output);
-    let stage = Stage::new(&mut renderer, &scene, &GameConfig::default());
+    let mut stage = Stage::new(&mut renderer, &scene, &GameConfig::default());
     let camera = stage.camera(0.0, &[]);
     let mut draw = |size, resolution| {
         renderer.resize(size);

@@ -28,10 +28,11 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
         let place = rng.random_range(1..rungs.len().max(2));
         let Some(rung) = rungs.get(place) else { continue };
         eprintln!("{}/{}: {} at T = {}, rung {}", number + 1, request.moments, case.scene, case.at, place + 1);
-        let shown = bench.show(&case)?;
-        let finest = bench.take(&shown, &shown.finest)?;
-        bench.warm(&shown)?;
-        let taken = bench.take(&shown, &turned(&shown.finest, &rung.steps))?;
+        let mut shown = bench.show(&case)?;
+        let asked = shown.finest;
+        let finest = bench.take(&mut shown, &asked)?;
+        bench.warm(&mut shown)?;
+        let taken = bench.take(&mut shown, &turned(&asked, &rung.steps))?;
         sheet.push([
             class.name().to_owned(),
             case.scene.clone(),
@@ -41,7 +42,7 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
             format!("{:.5}", rung.error),
             format!("{:.5}", bench.error(&finest, &taken)),
             format!("{:.4}", rung.time),
-            format!("{:.4}", taken.milliseconds / bench.time(&shown, &shown.finest)?),
+            format!("{:.4}", taken.milliseconds / bench.time(&mut shown, &asked)?),
         ]);
         keep(&sheet)?;
     }

@@ -50,14 +50,15 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
             let rungs = ladder(Prices::shipped(), class);
             let case = Case { scene: scene.to_owned(), at: number as f64 * STEP, seed: request.seed(), turn: [0.0; 2] };
             eprintln!("{}/{}: {scene} at T = {}", number + 1, request.moments, case.at);
-            let shown = bench.show(&case)?;
-            let whole = everything(&shown.finest);
-            let finest = bench.take(&shown, &whole)?;
-            bench.warm(&shown)?;
+            let mut shown = bench.show(&case)?;
+            let asked = shown.finest;
+            let whole = everything(&asked);
+            let finest = bench.take(&mut shown, &whole)?;
+            bench.warm(&mut shown)?;
             for level in LEVELS {
                 let rung = rung_of(level, &rungs);
-                let taken = bench.take(&shown, &turned(&shown.finest, &rungs[rung].steps))?;
-                let beside = bench.time(&shown, &whole)?;
+                let taken = bench.take(&mut shown, &turned(&asked, &rungs[rung].steps))?;
+                let beside = bench.time(&mut shown, &whole)?;
                 sheet.push([
                     class.name().to_owned(),
                     scene.to_owned(),

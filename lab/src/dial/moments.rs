@@ -142,13 +142,13 @@ impl Bench {
     }
 
     /// Draws it with these settings, and takes the time.
-    pub fn take(&mut self, shown: &Shown, settings: &Settings) -> Result<Taken, ChartError> {
+    pub fn take(&mut self, shown: &mut Shown, settings: &Settings) -> Result<Taken, ChartError> {
         let taken = self.picture(shown, settings)?;
         Ok(Taken { milliseconds: self.time(shown, settings)?, ..taken })
     }
 
     /// Draws it with these settings.
-    pub fn picture(&mut self, shown: &Shown, settings: &Settings) -> Result<Taken, ChartError> {
+    pub fn picture(&mut self, shown: &mut Shown, settings: &Settings) -> Result<Taken, ChartError> {
         let frame = shown.stage.frame(shown.camera, self.size, shown.moment.time(), &shown.moment.histories(), None, settings);
         let picture = self.offscreen.renderer.picture(&frame, false)?;
         let light = picture.display.chunks_exact(4).map(|pixel| [0, 1, 2].map(|k| linear(pixel[k]))).collect();
@@ -156,8 +156,8 @@ impl Bench {
     }
 
     /// Milliseconds a frame with these settings, as [`Taken::milliseconds`].
-    pub fn time(&mut self, shown: &Shown, settings: &Settings) -> Result<f64, ChartError> {
-        let frame = || shown.stage.frame(shown.camera, self.size, shown.moment.time(), &shown.moment.histories(), None, settings);
+    pub fn time(&mut self, shown: &mut Shown, settings: &Settings) -> Result<f64, ChartError> {
+        let mut frame = || shown.stage.frame(shown.camera, self.size, shown.moment.time(), &shown.moment.histories(), None, settings);
         // A software driver works on the processor: its time is not disturbed by other programs.
         let is_software = self.gpu.adapter.device_type == wgpu::DeviceType::Cpu;
         let start = Instant::now();
@@ -172,8 +172,9 @@ impl Bench {
     }
 
     /// Draws it until memory and clocks have settled.
-    pub fn warm(&mut self, shown: &Shown) -> Result<(), ChartError> {
-        (0..WARM).try_for_each(|_| self.time(shown, &shown.finest).map(|_| ()))
+    pub fn warm(&mut self, shown: &mut Shown) -> Result<(), ChartError> {
+        let finest = shown.finest;
+        (0..WARM).try_for_each(|_| self.time(shown, &finest).map(|_| ()))
     }
 
     /// Mean FLIP of a picture from the finest.

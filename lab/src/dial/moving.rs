@@ -41,17 +41,18 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
         let mut last: Option<Taken> = None;
         for frame in 0..request.moments {
             let case = Case { scene: scene.to_owned(), at: frame as f64 * STEP, seed: request.seed(), turn: [0.0; 2] };
-            let shown = bench.show(&case)?;
+            let mut shown = bench.show(&case)?;
+            let asked = shown.finest;
             let before = governor.rung();
             let time = HOLD * load(frame) * rungs[before].time;
             let rung = governor.follow(&rungs, HOLD, time, time);
-            let taken = bench.picture(&shown, &turned(&shown.finest, &rungs[rung].steps))?;
+            let taken = bench.picture(&mut shown, &turned(&asked, &rungs[rung].steps))?;
             if let Some(last) = last {
                 let moved = bench.error(&last, &taken);
                 let stayed = if rung == before {
                     moved
                 } else {
-                    let unchanged = bench.picture(&shown, &turned(&shown.finest, &rungs[before].steps))?;
+                    let unchanged = bench.picture(&mut shown, &turned(&asked, &rungs[before].steps))?;
                     bench.error(&last, &unchanged)
                 };
                 let numbers = [case.at, (before + 1) as f64, (rung + 1) as f64].map(|number| number.to_string());

@@ -23,16 +23,17 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
         for number in 0..request.moments {
             let case = case(&scenes, &mut rng).ok_or_else(|| empty(class.name()))?;
             eprintln!("{} {}/{}: {} at T = {}", class.name(), number + 1, request.moments, case.scene, case.at);
-            let shown = bench.show(&case)?;
-            let finest = bench.take(&shown, &shown.finest)?;
-            bench.warm(&shown)?;
+            let mut shown = bench.show(&case)?;
+            let asked = shown.finest;
+            let finest = bench.take(&mut shown, &asked)?;
+            bench.warm(&mut shown)?;
             for (k, knob) in Knob::ALL.into_iter().enumerate() {
                 for step in 1..knob.steps() {
                     let mut steps = [0; Knob::ALL.len()];
                     steps[k] = step;
-                    let taken = bench.take(&shown, &turned(&shown.finest, &steps))?;
+                    let taken = bench.take(&mut shown, &turned(&asked, &steps))?;
                     // Beside it, so that what else the machine does tells on both alike.
-                    let beside = bench.time(&shown, &shown.finest)?;
+                    let beside = bench.time(&mut shown, &asked)?;
                     let error = bench.error(&finest, &taken);
                     sheet.push([
                         class.name().to_owned(),

@@ -112,14 +112,14 @@ pub const HELD: [Held; 18] = [
         place: "device lost",
         must: "an error in words",
         test: ["tests/render/trouble.rs", "a_lost_device_is_an_error_in_words"],
-        fault: fault("src/render/renderer.rs", "if self.hidden || self.gpu.watch.complaint().is_some() {", "if self.hidden {"),
+        fault: fault("src/render/renderer/prepare.rs", "if self.hidden || self.gpu.watch.complaint().is_some() {", "if self.hidden {"),
     },
     Held {
         part: "drawing",
         place: "window of no pixel",
         must: "nothing is drawn until it has one",
         test: ["tests/render/trouble.rs", "a_picture_without_a_size_waits"],
-        fault: fault("src/render/renderer.rs", "self.hidden = size.contains(&0);", "self.hidden = size.contains(&1);"),
+        fault: fault("src/render/renderer/mod.rs", "self.hidden = size.contains(&0);", "self.hidden = size.contains(&1);"),
     },
     Held {
         part: "drawing",
@@ -127,7 +127,7 @@ pub const HELD: [Held; 18] = [
         must: "left out and counted; what is beside them is drawn",
         test: ["tests/render/trouble.rs", "what_is_not_finite_is_counted_and_not_drawn"],
         fault: fault(
-            "src/render/geometry/mod.rs",
+            "src/render/geometry/lists.rs",
             "caught: refused, calmed, ..Counters::default()",
             "caught: refused.min(0), calmed, ..Counters::default()",
         ),

@@ -128,7 +128,7 @@ fn times(
     let scene = scene::load(name)?;
     let moment = Moment::new(&scene, base, 0.0, 0);
     let mut offscreen = Offscreen::new(gpu, request.size);
-    let stage = Stage::new(&mut offscreen.renderer, &scene, base);
+    let mut stage = Stage::new(&mut offscreen.renderer, &scene, base);
     let camera = stage.camera(moment.time(), &moment.ships());
     let mut found = vec![(Vec::new(), Counters::default()); ways.len()];
     for round in 0..=request.rounds {

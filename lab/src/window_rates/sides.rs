@@ -25,9 +25,10 @@ pub fn draw(rung: usize, size: [u32; 2], seed: u64, folder: &Path) -> Result<Pat
     let ([left, top], [wide, high]) = ([width / 4, 2 * height / 5], [width / 2, height / 2]);
     let mut picture = image::RgbImage::new(2 * wide, MOMENTS.len() as u32 * high);
     for (row, at) in MOMENTS.into_iter().enumerate() {
-        let shown = bench.show(&Case { scene: SCENE.into(), at, seed, turn: [0.0; 2] })?;
-        let finest = bench.picture(&shown, &shown.finest)?;
-        let taken = bench.picture(&shown, &turned(&shown.finest, &rung.steps))?;
+        let mut shown = bench.show(&Case { scene: SCENE.into(), at, seed, turn: [0.0; 2] })?;
+        let asked = shown.finest;
+        let finest = bench.picture(&mut shown, &asked)?;
+        let taken = bench.picture(&mut shown, &turned(&asked, &rung.steps))?;
         let error = bench.error(&finest, &taken);
         say(format_args!("T = {at}: {}; FLIP {error:.3}, predicted at most {:.3}", rung.says(), rung.error));
         for (column, side) in [finest, taken].into_iter().enumerate() {

@@ -45,7 +45,7 @@ fn balls(
     std::fs::write(&file, text).unwrap();
     let scene = scene::load(file.to_str().unwrap()).unwrap();
     std::fs::remove_file(&file).unwrap();
-    let stage = Stage::new(renderer, &scene, config);
+    let mut stage = Stage::new(renderer, &scene, config);
     let frame = stage.frame(camera, SIZE, 0.0, &[], None, settings);
     renderer.picture(&frame, true).unwrap()
 }

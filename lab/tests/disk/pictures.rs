@@ -56,7 +56,7 @@ fn the_disk_hides_what_is_behind_it_and_is_hidden_by_what_is_before() {
         }
         std::fs::write(&file, text).unwrap();
         let scene = lensrunner::scene::load(file.to_str().unwrap()).unwrap();
-        let stage = lensrunner::render::stage::Stage::new(&mut renderer, &scene, &GameConfig::default());
+        let mut stage = lensrunner::render::stage::Stage::new(&mut renderer, &scene, &GameConfig::default());
         let frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &settings());
         let linear = renderer.picture(&frame, false).unwrap().linear;
         let p = linear[(size[0] * (size[1] / 2) + size[0] / 2) as usize];

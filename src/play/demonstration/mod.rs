@@ -136,7 +136,7 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Resul
     let frames_folder = flight.folder.join("frames");
     empty_folder(&frames_folder)?;
     let mut renderer = Renderer::new(gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, flight.size);
-    let stage = Stage::new(&mut renderer, &session.scene, &session.effective());
+    let mut stage = Stage::new(&mut renderer, &session.scene, &session.effective());
     let (texture, view) = target(&gpu.device, "flight", flight.size, wgpu::TextureFormat::Rgba8UnormSrgb);
     let mut settings = settings(&session.config);
     settings.own_ship = Some(session.player());

@@ -135,7 +135,7 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
     {
         player.assist = None;
     }
-    if let Some(staged) = world.get_resource::<Staged>() {
+    if let Some(mut staged) = world.get_resource_mut::<Staged>() {
         if before.as_ref().is_some_and(|before| changes_models(before, config)) {
             restage(world);
         } else if before.as_ref().is_some_and(|before| before.aurora != config.aurora) {

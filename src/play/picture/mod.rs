@@ -100,7 +100,7 @@ fn point_camera(
 /// Makes the frame to draw.
 fn make_frame(
     now: Now,
-    (staged, shot, statistics, quality): (Res<Staged>, Res<CurrentShot>, Res<RenderStatistics>, Res<Quality>),
+    (mut staged, shot, statistics, quality): (ResMut<Staged>, Res<CurrentShot>, Res<RenderStatistics>, Res<Quality>),
     real: Res<Time<Real>>,
     screen: Res<State<Screen>>,
     (windows, photo): (Query<&Window, With<PrimaryWindow>>, Option<Res<Photo>>),

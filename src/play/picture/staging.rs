@@ -83,7 +83,7 @@ fn hand_over(world: &mut World) {
         Some(other) => return world.insert_resource(other),
         None => return,
     };
-    let Ok((stage, mut upload)) = making.join() else { return fail(world, "its models could not be made") };
+    let Ok((mut stage, mut upload)) = making.join() else { return fail(world, "its models could not be made") };
     if world.contains_resource::<Staged>() {
         world.insert_resource(SceneToDraw(Some(Arc::new(upload))));
         world.insert_resource(Staged(stage));
@@ -91,7 +91,7 @@ fn hand_over(world: &mut World) {
         world.insert_resource(FrameToDraw(None));
         return;
     }
-    upload.rehearsal = world.run_system_cached_with(rehearsal, stage.clone()).unwrap_or_default();
+    upload.rehearsal = world.run_system_cached_with(rehearsal, &mut stage).unwrap_or_default();
     let upload = Arc::new(upload);
     world.insert_resource(SceneToDraw(Some(upload.clone())));
     world.insert_resource(Staging::HandedOver(Box::new(stage), upload));
@@ -113,13 +113,13 @@ fn show(world: &mut World) {
 const INSIDE: f64 = 0.8;
 
 /// Frames that need whatever this scene may need: as seen from the player's ship and from far, with every image thin, inside the horizon.
-fn rehearsal(stage: In<Stage>, now: Now) -> Vec<FrameInput> {
+fn rehearsal(mut stage: InMut<Stage>, now: Now) -> Vec<FrameInput> {
     let Some((history, ..)) = now.own() else { return Vec::new() };
     let (me, time, config) = (now.session.player(), now.time(), now.session.config.clone());
     let state = state_of(&history.at(time));
     let field_of_view = config.video.fov.to_radians();
     let settings = settings(&config);
-    let frame = |shot: FrameCamera| {
+    let mut frame = |shot: FrameCamera| {
         let settings = crate::render::settings::Settings { own_ship: shot.lit, ..settings };
         stage.frame(shot.camera, [1280, 720], time, &now.histories(), shot.hidden, &settings)
     };

@@ -115,7 +115,7 @@ impl Studio<'_> {
     /// The picture of a moment, RGB; `seconds` have passed since the one before.
     fn picture(&mut self, take: &mut Take, moment: &Moment, seconds: f64) -> Result<Vec<u8>, PictureError> {
         let config = &take.session.config;
-        let (stage, mut settings) = match self.set.take() {
+        let (mut stage, mut settings) = match self.set.take() {
             Some((part, stage, settings)) if part == moment.part => {
                 // From the second picture on the eye adapts.
                 let adaptation = (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32;

@@ -140,7 +140,7 @@ impl Aurora {
         settings.room = (u64::from(settings.room).min(most) as u32).next_multiple_of(8);
         settings.levels = settings.levels.clamp(1, PYRAMID);
         let rooms = Rooms { finest: u64::from(settings.room), levels: settings.levels };
-        let mut replaced = self.groups.is_none() || rooms.levels != self.rooms.levels;
+        let mut replaced = rooms.levels != self.rooms.levels;
         self.rooms = rooms;
         replaced |= self.write_rows(gpu, &frame.rows);
         // They change only with the keys of the spectrum.
@@ -160,7 +160,7 @@ impl Aurora {
         }
         replaced |= self.ranges.prepare(device, &targets.depth, targets.size);
         if replaced {
-            self.groups = self.make_groups(device);
+            self.groups = None;
         }
         gpu.queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
         gpu.queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&frame.instances[..orders]));
@@ -190,6 +190,13 @@ impl Aurora {
         }
         self.uploaded_rows = rows.clone();
         replaced
+    }
+
+    /// Makes the bind groups of a prepared frame, where buffers are others than before.
+    pub fn bind(&mut self, device: &wgpu::Device) {
+        if self.groups.is_none() {
+            self.groups = self.make_groups(device);
+        }
     }
 
     fn make_groups(&self, device: &wgpu::Device) -> Option<VeilGroups> {

@@ -116,8 +116,8 @@ impl ArcPass {
         }
     }
 
-    /// Uploads what the frame needs and fills in the places in its buffers. `frame` is the uniform buffer of the shaders.
-    pub fn prepare(&mut self, gpu: &Gpu, view: &mut DiskView, frame: &wgpu::Buffer) {
+    /// Uploads what the frame needs and fills in the places in its buffers.
+    pub fn prepare(&mut self, gpu: &Gpu, view: &mut DiskView) {
         let DiskFrame { columns, arcs, rows, rings, .. } = view.frame;
         let grid = columns * rows;
         view.frame.vertex_room = grid + EXTRA;
@@ -133,17 +133,21 @@ impl ArcPass {
         replaced |= self.seen.reserve(device, u64::from(view.frame.vertex_room) * size_of::<DiskVertex>() as u64);
         replaced |= self.segment_buffer.reserve(device, types::SEGMENTS_BYTES * u64::from(arcs * rows));
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&DiskCounters::default()));
-        if replaced || self.group.is_none() {
-            self.group = Some(self.bind(device, frame));
+        if replaced {
+            self.group = None;
         }
     }
 
-    fn bind(&self, device: &wgpu::Device, frame: &wgpu::Buffer) -> wgpu::BindGroup {
+    /// Makes the bind group of a prepared frame, where buffers are others than before. `frame` is the uniform buffer of the shaders.
+    pub fn bind(&mut self, device: &wgpu::Device, frame: &wgpu::Buffer) {
+        if self.group.is_some() {
+            return;
+        }
         let read = [frame, &self.circles.buffer, &self.cuts.buffer].map(wgpu::Buffer::as_entire_binding);
         let tables = [self.rings.binding(), self.bends.binding()];
         let written = [&self.seen.buffer, &self.segment_buffer.buffer, &self.jobs, &self.indices, &self.counters];
         let resources: Vec<_> = read.into_iter().chain(tables).chain(written.map(wgpu::Buffer::as_entire_binding)).collect();
-        bind(device, "disk", &self.group_layout, &resources)
+        self.group = Some(bind(device, "disk", &self.group_layout, &resources));
     }
 
     /// The stages.

@@ -18,8 +18,6 @@ use std::ops::RangeInclusive;
 
 use wgpu::{BufferUsages, ShaderStages};
 
-use crate::lensing::Slice;
-
 use crate::render::Gpu;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::layout::{Slot, bind, buffer, layout, storage};
@@ -106,9 +104,8 @@ impl DiskPasses {
         }
     }
 
-    /// Uploads what the frame needs.
-    pub fn prepare(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, input: &FrameInput, slice: &Slice, width: u32) {
-        let mut view = DiskView::new(&self.disk, input, slice, width);
+    /// Uploads what the frame needs; `view` is that of the disk in a picture `width` pixels wide.
+    pub fn prepare(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, input: &FrameInput, mut view: DiskView, width: u32) {
         self.is_straight = !input.settings.method.bends();
         if self.is_straight && self.straight.is_none() {
             let radial = storage(gpu, "radial", &self.disk.radial_table());
@@ -119,11 +116,21 @@ impl DiskPasses {
         }
         match &mut self.representation {
             _ if self.is_straight => self.straight.iter_mut().for_each(|polygons| polygons.prepare(gpu, input, width)),
-            Representation::Arcs => self.arcs.prepare(gpu, &mut view, &self.frame),
+            Representation::Arcs => self.arcs.prepare(gpu, &mut view),
             Representation::Polygons(polygons) => polygons.prepare(gpu, input, width),
             Representation::Sprites(sprites) => sprites.prepare(&view),
         }
         gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&view.frame));
+    }
+
+    /// Makes the bind groups of a prepared frame, where buffers are others than before.
+    pub fn bind(&mut self, device: &wgpu::Device) {
+        match &mut self.representation {
+            _ if self.is_straight => self.straight.iter_mut().for_each(|polygons| polygons.bind(device)),
+            Representation::Arcs => self.arcs.bind(device, &self.frame),
+            Representation::Polygons(polygons) => polygons.bind(device),
+            Representation::Sprites(_) => {}
+        }
     }
 
     /// The stages of compute.

@@ -10,6 +10,7 @@ use wgpu::{BufferUsages, ShaderStages};
 use crate::render::Gpu;
 use crate::render::frame::FrameInput;
 use crate::render::geometry::Geometry;
+use crate::render::geometry::lists::BodyLists;
 use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, layout, module, raster};
 use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::shaders::Pass;
@@ -146,10 +147,16 @@ impl PolygonPass {
                 turning.push(Turning { rate: (rate / TAU) as f32, azimuth: (azimuth / TAU) as f32 });
             }
         }
-        self.geometry.prepare(gpu, &self.models, &placed, input.settings.vertex_budget, None);
+        let most = gpu.device.limits().max_storage_buffer_binding_size;
+        self.geometry.prepare(gpu, BodyLists::new(&placed, input.settings.vertex_budget, most), None);
         self.turning.write(gpu, &turning);
+    }
+
+    /// Makes the bind groups of a prepared frame.
+    pub fn bind(&mut self, device: &wgpu::Device) {
+        self.geometry.bind(device, &self.models);
         self.group = Some(bind(
-            &gpu.device,
+            device,
             "polygons",
             &self.seen_layout,
             &[self.geometry.seen().as_entire_binding(), self.radial.as_entire_binding(), self.turning.buffer.as_entire_binding()],

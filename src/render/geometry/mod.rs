@@ -4,6 +4,7 @@
 //! through the buffers of group 1; the processor only says which objects there are.
 
 mod ground;
+pub mod lists;
 mod stages;
 pub mod thin;
 
@@ -11,6 +12,7 @@ use crate::render::gpu::targets::LAYERS_FORMAT;
 use wgpu::{BufferUsages, ShaderStages};
 
 use ground::GroundBuffers;
+use lists::BodyLists;
 use stages::{PipelineCache, PipelineInputs};
 
 use crate::render::Gpu;
@@ -18,27 +20,12 @@ use crate::render::aurora::ground::GroundFrame;
 use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTexture, bind, buffer, layout, module, raster_of};
 use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::shaders::Pass;
-use crate::render::gpu::types::placed::THIN;
-use crate::render::gpu::types::{self, Capacity, Chunk, Counters, Instance, SeenVertex};
-use crate::render::instances::Placed;
-use crate::render::instances::swing::Node;
+use crate::render::gpu::types::{self, Capacity, Counters, SeenVertex};
 use crate::render::method::Method;
 use crate::render::models::Models;
 
-/// Threads of a workgroup; `@workgroup_size` of the stages.
-const LANES: u32 = 64;
-/// Groups along the first dimension of a dispatch (65,535 is the limit).
-const GROUPS: u32 = 32_768;
 /// Passes of splitting: one for each depth, and one for those at the last depth.
 const REFINE_PASSES: u32 = 25;
-
-/// Room beyond that of the models for `budget` vertices of the mesh stage. A vertex is in at most two triangles of three indices; blocks of
-/// the mesh stage have about ten vertices. A fifth of the indices is enough for every triangle of the models. No buffer is larger than
-/// `most` bytes, the device's limit, as long as the models fit; seen vertices take the most.
-fn room(budget: u32, vertices: u32, triangles: u32, most: u64) -> Capacity {
-    let budget = budget.min(((most / size_of::<SeenVertex>() as u64) as u32).saturating_sub(vertices));
-    Capacity { vertices: vertices + budget, indices: 3 * (2 * budget + 5 * triangles), work: budget / 10, thin: 3 * (budget / 3) }
-}
 
 /// The stages of geometry and the buffers between them.
 #[derive(Debug)]
@@ -47,10 +34,10 @@ pub struct Geometry {
     draw_layout: wgpu::BindGroupLayout,
     stages: PipelineCache,
     draws: Draws,
+    /// Those of the prepared frame.
+    lists: BodyLists,
     instances: TableTexture,
     chunks: [TableTexture; 3],
-    /// Groups to dispatch over vertices, edges, triangles.
-    dispatch: [[u32; 2]; 3],
     seen: Growing,
     states: Growing,
     pieces: Growing,
@@ -62,10 +49,8 @@ pub struct Geometry {
     arguments_group: wgpu::BindGroup,
     sampler: wgpu::Sampler,
     ground: GroundBuffers,
+    /// None where they are to be made.
     groups: Option<([wgpu::BindGroup; 3], wgpu::BindGroup)>,
-    /// Whether any image of the prepared frame is thin, by how often its light crosses the disk's plane.
-    thin_across: [bool; 4],
-    capacity: Capacity,
 }
 
 #[derive(Debug)]
@@ -136,18 +121,6 @@ fn thin_layout() -> wgpu::VertexBufferLayout<'static> {
     wgpu::VertexBufferLayout { array_stride: types::THIN_BYTES, step_mode: wgpu::VertexStepMode::Vertex, attributes: &ATTRIBUTES }
 }
 
-/// The texels of the table of instances: the instances, then the nodes of each, whose place is told to it.
-fn instance_table<'a>(instances: &mut [Instance], nodes: impl Iterator<Item = &'a [Node]>) -> Vec<[f32; 4]> {
-    let mut first = size_of_val(instances) / size_of::<[f32; 4]>();
-    let mut behind: Vec<[f32; 4]> = Vec::new();
-    for (instance, nodes) in instances.iter_mut().zip(nodes) {
-        instance.node_texel = first as u32;
-        behind.extend(nodes.as_flattened());
-        first += nodes.as_flattened().len();
-    }
-    [bytemuck::cast_slice(instances), &behind].concat()
-}
-
 impl Geometry {
     /// Compiles the stages, for models whose points have such worldlines.
     pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, worldlines: Worldlines) -> Self {
@@ -181,9 +154,9 @@ impl Geometry {
             draws: Draws::new(device, frame_layout, &draw_layout),
             draw_layout,
             stages,
+            lists: BodyLists::default(),
             instances: TableTexture::new(device, "instances", true),
             chunks: ["vertex chunks", "edge chunks", "triangle chunks"].map(|label| TableTexture::new(device, label, true)),
-            dispatch: [[0; 2]; 3],
             seen: Growing::new(device, "seen vertices", storage | BufferUsages::VERTEX),
             states: Growing::new(device, "states", storage),
             pieces: Growing::new(device, "pieces", storage),
@@ -196,8 +169,6 @@ impl Geometry {
             sampler: surface_sampler(device),
             ground: GroundBuffers::new(device),
             groups: None,
-            thin_across: [false; 4],
-            capacity: room(0, 0, 0, 0),
         }
     }
 
@@ -213,92 +184,59 @@ impl Geometry {
 
     /// Whether nothing is placed in the prepared frame: there is nothing to do or to draw.
     pub fn is_empty(&self) -> bool {
-        self.dispatch[2][0] == 0
+        self.lists.dispatch[2][0] == 0
     }
 
     /// Whether any image of the prepared frame is thin: else two passes over the whole screen have nothing to do.
     pub fn has_thin(&self) -> bool {
-        self.thin_across.contains(&true)
+        self.lists.thin_across.contains(&true)
     }
 
     /// Whether any of them may be thin and have light that crosses the disk's plane this often, up to three times.
     pub fn has_thin_across(&self, crossings: u32) -> bool {
-        self.thin_across.get(crossings as usize).is_some_and(|any| *any)
+        self.lists.thin_across.get(crossings as usize).is_some_and(|any| *any)
     }
 
     /// Room in the buffers, as given to the shaders.
     pub fn capacity(&self) -> Capacity {
-        self.capacity
+        self.lists.capacity
     }
 
-    /// Bind groups are made anew at the next [`Geometry::prepare`]: call after models changed.
+    /// Bind groups are made anew at the next [`Geometry::bind`]: call after models changed.
     pub fn models_changed(&mut self) {
         self.groups = None;
     }
 
-    /// Writes what is to be drawn in this frame, with room for `budget` vertices of the mesh stage.
-    /// `ground` is the aurora's light on its planet.
-    pub fn prepare(&mut self, gpu: &Gpu, models: &Models, placed: &[Placed], budget: u32, ground: Option<&GroundFrame>) {
-        let mut instances: Vec<Instance> = Vec::with_capacity(placed.len());
-        let mut chunks: [Vec<Chunk>; 3] = Default::default();
-        let drawn = || placed.iter().filter(|item| item.instance.is_finite());
-        // States of edges lie behind those of vertices.
-        let all_vertices: u32 = drawn().map(|item| item.model.vertices[1]).sum();
-        // What is not finite is left out here; counted with what the shaders leave out.
-        let refused = (placed.len() - drawn().count()) as u32;
-        let calmed = placed.iter().filter(|item| item.calmed).count() as u32;
-        let (mut vertices, mut edges, mut triangles) = (0, 0, 0);
-        for item in drawn() {
-            let model = item.model;
-            let mut instance = item.instance;
-            (instance.first_seen, instance.first_state) = (vertices, all_vertices + edges);
-            [instance.first_vertex, instance.vertex_count] = model.vertices;
-            [instance.first_edge, instance.edge_count] = model.edges;
-            [instance.first_triangle, instance.triangle_count] = model.triangles;
-            instance.first_material = model.material;
-            let number = instances.len() as u32;
-            for (list, count) in chunks.iter_mut().zip([model.vertices[1], model.edges[1], model.triangles[1]]) {
-                list.extend((0..count.div_ceil(LANES)).map(|chunk| Chunk { instance: number, first: chunk * LANES }));
-            }
-            vertices += model.vertices[1];
-            edges += model.edges[1];
-            triangles += model.triangles[1];
-            instances.push(instance);
-        }
-        self.thin_across = [false; 4];
-        for instance in instances.iter().filter(|instance| instance.flags & THIN != 0) {
-            let (order, crossings) = (instance.order as usize, instance.crossings);
-            let range = if crossings < 0.0 { order - 1..=order } else { crossings as usize..=crossings as usize };
-            self.thin_across[range].fill(true);
-        }
-        let device = &gpu.device;
-        self.capacity = room(budget, vertices, triangles, device.limits().max_storage_buffer_binding_size);
-        let mut replaced = self.instances.write(gpu, &instance_table(&mut instances, drawn().map(|item| &item.nodes[..])));
+    /// Uploads the lists of this frame, and makes room for what the stages make of them. `ground` is the aurora's light on its planet.
+    pub fn prepare(&mut self, gpu: &Gpu, lists: BodyLists, ground: Option<&GroundFrame>) {
+        let (device, capacity) = (&gpu.device, lists.capacity);
+        let mut replaced = self.instances.write(gpu, &lists.texels);
         replaced |= self.ground.write(gpu, ground);
-        for ((list, buffer), dispatch) in chunks.iter_mut().zip(&mut self.chunks).zip(&mut self.dispatch) {
-            let count = list.len() as u32;
-            *dispatch = [count.min(GROUPS), count.div_ceil(GROUPS)];
-            // Two are a texel.
-            list.resize((dispatch[0] * dispatch[1]).next_multiple_of(2) as usize, Chunk { instance: u32::MAX, first: 0 });
-            replaced |= buffer.write(gpu, list);
+        for (list, table) in lists.chunks.iter().zip(&mut self.chunks) {
+            replaced |= table.write(gpu, list);
         }
-        replaced |= self.seen.reserve(device, u64::from(self.capacity.vertices) * size_of::<SeenVertex>() as u64);
-        let work = u64::from(self.capacity.work);
+        replaced |= self.seen.reserve(device, u64::from(capacity.vertices) * size_of::<SeenVertex>() as u64);
+        let work = u64::from(capacity.work);
         replaced |= self.pieces.reserve(device, 2 * types::PIECE_BYTES * work);
         replaced |= self.work.reserve(device, types::WORK_BYTES * work);
-        replaced |= self.indices.reserve(device, 4 * u64::from(self.capacity.indices));
-        replaced |= self.thin.reserve(device, types::THIN_BYTES * u64::from(self.capacity.thin));
-        replaced |= self.states.reserve(device, u64::from(vertices + edges) * 16);
-        if replaced || self.groups.is_none() {
-            self.make_groups(gpu, models);
+        replaced |= self.indices.reserve(device, 4 * u64::from(capacity.indices));
+        replaced |= self.thin.reserve(device, types::THIN_BYTES * u64::from(capacity.thin));
+        replaced |= self.states.reserve(device, u64::from(lists.states) * 16);
+        if replaced {
+            self.groups = None;
         }
-        // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
-        let counters = Counters { vertices, model_vertices: vertices, turn: 1, caught: refused, calmed, ..Counters::default() };
-        gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&counters));
+        gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&lists.counters));
+        self.lists = lists;
     }
 
-    fn make_groups(&mut self, gpu: &Gpu, models: &Models) {
-        let device = &gpu.device;
+    /// Makes the bind groups of a prepared frame, where buffers or the `models` are others than before.
+    pub fn bind(&mut self, device: &wgpu::Device, models: &Models) {
+        if self.groups.is_none() {
+            self.groups = Some(self.make_groups(device, models));
+        }
+    }
+
+    fn make_groups(&self, device: &wgpu::Device, models: &Models) -> ([wgpu::BindGroup; 3], wgpu::BindGroup) {
         let compute = std::array::from_fn(|kind| {
             let buffers = [
                 &self.seen.buffer,
@@ -336,11 +274,11 @@ impl Geometry {
                 wgpu::BindingResource::TextureView(&self.ground.view),
             ],
         );
-        self.groups = Some((compute, draw));
+        (compute, draw)
     }
 
     fn stage(&self, pass: &mut wgpu::ComputePass, pipeline: &wgpu::ComputePipeline, kind: usize) {
-        let [x, y] = self.dispatch[kind];
+        let [x, y] = self.lists.dispatch[kind];
         let Some((groups, _)) = &self.groups else { return };
         if x > 0 {
             pass.set_pipeline(pipeline);

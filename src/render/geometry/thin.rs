@@ -58,23 +58,30 @@ impl ThinLists {
         }
     }
 
-    /// Makes room for `room` thin triangles in a picture of `size` pixels. `triangles` are those of the prepared geometry, `arguments` its
-    /// indirect arguments.
-    pub fn prepare(&mut self, gpu: &Gpu, [triangles, arguments]: [&wgpu::Buffer; 2], room: u32, size: [u32; 2]) {
+    /// Makes room for `room` thin triangles in a picture of `size` pixels.
+    pub fn prepare(&mut self, gpu: &Gpu, room: u32, size: [u32; 2]) {
         let device = &gpu.device;
         self.count = tiles(size);
         let mut replaced = self.lists.reserve(device, 4 * u64::from(CROSSINGS) * u64::from(room));
         replaced |= self.tiles.reserve(device, 8 * u64::from(self.count));
-        if replaced || self.triangles.as_ref() != Some(triangles) {
+        if replaced {
+            self.groups = None;
+        }
+        let triangles = (0..CROSSINGS).flat_map(|crossings| [0, 1, crossings * room, 0, 0]);
+        let draws: Vec<u32> = triangles.chain([6, 0, 0, 0]).collect();
+        gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&draws));
+    }
+
+    /// Makes the bind groups of a prepared frame, where buffers are others than before. `triangles` are those of the prepared geometry,
+    /// `arguments` its indirect arguments.
+    pub fn bind(&mut self, device: &wgpu::Device, [triangles, arguments]: [&wgpu::Buffer; 2]) {
+        if self.groups.is_none() || self.triangles.as_ref() != Some(triangles) {
             self.triangles = Some(triangles.clone());
             let buffers = [triangles, arguments, &self.draws, &self.lists.buffer, &self.tiles.buffer];
             let list = bind(device, "thin lists", &self.list_layout, &buffers.map(|buffer| buffer.as_entire_binding()));
             let tiles = bind(device, "thin tiles", &self.tiles_layout, &[self.tiles.buffer.as_entire_binding()]);
             self.groups = Some((list, tiles));
         }
-        let triangles = (0..CROSSINGS).flat_map(|crossings| [0, 1, crossings * room, 0, 0]);
-        let draws: Vec<u32> = triangles.chain([6, 0, 0, 0]).collect();
-        gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&draws));
     }
 
     /// Forgets the tiles of the frame before; before [`list`](ThinLists::list).

@@ -116,10 +116,11 @@ impl Timing {
         self.work.clear();
     }
 
-    /// The processor has worked on this part of the frame since `begin`; gives the time now.
+    /// The processor has worked on this part of the frame since `begin`; gives the time now. What it did for one part at several times
+    /// counts together.
     pub fn worked(&mut self, label: &'static str, begin: Instant) -> Instant {
         let now = Instant::now();
-        self.work.push((label, (now - begin).as_secs_f32() * 1e3));
+        add(&mut self.work, label, (now - begin).as_secs_f32() * 1e3);
         now
     }
 

@@ -97,22 +97,29 @@ impl Background {
 
     /// Lays the grid over a picture of `size` pixels, before [`Background::cells`].
     pub fn prepare(&mut self, gpu: &Gpu, size: [u32; 2]) {
-        use wgpu::BindingResource::{Sampler, TextureView};
         let device = &gpu.device;
         let [columns, rows] = size.map(|side| side.div_ceil(CELL));
         self.grid = [columns, rows];
         let indices = 6 * columns * rows;
         let mut replaced = self.corners.reserve(device, u64::from((columns + 1) * (rows + 1)) * SKY_CORNER_BYTES);
         replaced |= self.indices.reserve(device, 2 * 4 * u64::from(indices));
-        if replaced || self.groups.is_none() {
+        if replaced {
+            self.groups = None;
+        }
+        let draws = CellDraws { smooth: [0, 1, 0, 0, 0], exact: [0, 1, indices, 0, 0], columns, rows, side: CELL, unused: 0 };
+        gpu.queue.write_buffer(&self.draws, 0, bytemuck::bytes_of(&draws));
+    }
+
+    /// Makes the bind groups of a prepared frame, where buffers are others than before.
+    pub fn bind(&mut self, device: &wgpu::Device) {
+        use wgpu::BindingResource::{Sampler, TextureView};
+        if self.groups.is_none() {
             let corners = || self.corners.buffer.as_entire_binding();
             let cells = [corners(), self.indices.buffer.as_entire_binding(), self.draws.as_entire_binding()];
             let draw = [corners(), TextureView(&self.milky_way), Sampler(&self.sampler)];
             self.groups =
                 Some((bind(device, "sky cells", &self.cells_layout, &cells), bind(device, "background", &self.draw_layout, &draw)));
         }
-        let draws = CellDraws { smooth: [0, 1, 0, 0, 0], exact: [0, 1, indices, 0, 0], columns, rows, side: CELL, unused: 0 };
-        gpu.queue.write_buffer(&self.draws, 0, bytemuck::bytes_of(&draws));
     }
 
     /// Works out what the corners see, and which cells may be interpolated.

@@ -1,123 +1,19 @@
 //! Stars: projected in compute, both orders, drawn as spots.
 
-use crate::spacetime::Observer;
-use std::cmp::Reverse;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::ops::Range;
-
-use glam::DVec3;
-use rayon::prelude::*;
-
 use crate::render::Gpu;
 use crate::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST};
 use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster, storage};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::types::Star;
-use crate::render::instances::visibility::may_be_seen;
 use crate::scene::blackbody;
 
-use crate::render::sky::table::sky_seen;
+use crate::render::sky::clusters::{CLUSTERS, ORDERS};
 
 /// Bytes of `SeenStar` in WGSL.
 const SEEN_STAR_BYTES: u64 = 32;
-/// Orders in which stars are projected: the third is within a ten-thousandth of the shadow's edge and carries as little of the light.
-const ORDERS: u32 = 2;
-/// Most stars of a cluster.
-const CLUSTER: usize = 64;
-/// Clusters per workgroup of the projection, with eight threads for each.
-const CLUSTERS: u32 = 8;
-
-/// Stars that are near each other on the sky, the brightest first.
-#[derive(Clone, Copy, Debug)]
-struct Cluster {
-    first: u32,
-    count: u32,
-    /// Middle, and the angle of the farthest star from it in radians.
-    middle: DVec3,
-    spread: f64,
-}
-
-/// Neighbouring clusters: those of four cells.
-#[derive(Clone, Debug)]
-struct Region {
-    /// All of their stars.
-    all: Cluster,
-    /// Their numbers.
-    clusters: Range<usize>,
-}
-
-/// Stars in the order of their clusters, these in that of their regions.
-struct Arranged {
-    stars: Vec<Star>,
-    clusters: Vec<Cluster>,
-    regions: Vec<Region>,
-}
-
-/// The stars in clusters: only those that may be on the screen are projected.
-fn arranged(stars: &[Star]) -> Arranged {
-    // Cells of a cube's faces, 16 × 16 each: about 75 stars a cell. The last two bits count the cells of a region.
-    let cell = |star: &Star| {
-        let d = star.direction;
-        let axis = (0..3).max_by(|&a, &b| d[a].abs().total_cmp(&d[b].abs())).unwrap_or(0);
-        let face = |k: usize| ((d[(axis + k) % 3] / d[axis].abs().max(1e-9) * 8.0 + 8.0) as u32).min(15);
-        let (x, y) = (face(1), face(2));
-        (axis as u32 * 2 + u32::from(d[axis] < 0.0)) << 8 | (x >> 1) << 5 | (y >> 1) << 2 | (x & 1) << 1 | (y & 1)
-    };
-    let mut sorted = stars.to_vec();
-    // Fluxes are positive, and the bits of such numbers are in their order.
-    sorted.sort_by_cached_key(|star| (cell(star), Reverse(star.flux.max(0.0).to_bits())));
-    let mut clusters = Vec::new();
-    let mut regions = Vec::new();
-    let mut first = 0;
-    let cluster = |first: u32, part: &[Star]| {
-        let direction = |star: &Star| DVec3::from_array(star.direction.map(f64::from)).normalize_or(DVec3::Z);
-        let middle = part.iter().map(direction).sum::<DVec3>().normalize_or(DVec3::Z);
-        let spread = part.iter().map(|star| middle.angle_between(direction(star))).fold(0.0, f64::max);
-        Cluster { first, count: part.len() as u32, middle, spread }
-    };
-    for region in sorted.chunk_by(|a, b| cell(a) >> 2 == cell(b) >> 2) {
-        let begin = clusters.len();
-        let all = cluster(first, region);
-        for part in region.chunk_by(|a, b| cell(a) == cell(b)).flat_map(|same_cell| same_cell.chunks(CLUSTER)) {
-            clusters.push(cluster(first, part));
-            first += part.len() as u32;
-        }
-        regions.push(Region { all, clusters: begin..clusters.len() });
-    }
-    Arranged { stars: sorted, clusters, regions }
-}
-
-/// Whether the image of this order of a cluster may be on the screen, by a cone that holds the image. In doubt the answer is yes.
-fn cluster_may_be_seen(cluster: &Cluster, order: u32, camera: &Observer, table: &[[f32; 4]], edge: f64, aspect: f64) -> bool {
-    let n = camera.axis_frame()[0];
-    let phi = cluster.middle.angle_between(n);
-    let (low, high) = ((phi - cluster.spread).max(0.0), (phi + cluster.spread).min(PI));
-    let swept = |phi: f64| match order {
-        1 => phi,
-        2 => TAU - phi,
-        _ => TAU + phi,
-    };
-    let seen = |phi: f64| edge * -(-f64::from(sky_seen(table, swept(phi) as f32)[0])).exp_m1();
-    let (a, b) = (seen(low), seen(high));
-    let (psi, half) = (0.5 * (a + b), 0.5 * (a - b).abs());
-    // The cluster's extent round the axis.
-    if phi - cluster.spread <= 0.0 || phi + cluster.spread >= PI {
-        return true;
-    }
-    let round = (cluster.spread.sin() / phi.sin()).min(1.0).asin();
-    let radius = half + round * (psi + half).min(FRAC_PI_2).sin().max((psi - half).sin());
-    let side = (cluster.middle - n * cluster.middle.dot(n)).normalize_or_zero() * if order == 2 { -1.0 } else { 1.0 };
-    let look = n * psi.cos() + side * psi.sin();
-    // The size of a spot is a few pixels more.
-    may_be_seen(camera, look, radius, 0.02, aspect)
-}
-
 /// The catalogue on the GPU and the two passes over it.
 #[derive(Debug)]
 pub struct Stars {
-    clusters: Vec<Cluster>,
-    /// Few, so that most clusters need not be looked at one by one.
-    regions: Vec<Region>,
     /// Clusters that may be on the screen: first star, how many, order.
     listed: Growing,
     groups: u32,
@@ -125,29 +21,28 @@ pub struct Stars {
     catalogue: wgpu::Buffer,
     seen: wgpu::Buffer,
     project: wgpu::ComputePipeline,
-    project_group: wgpu::BindGroup,
+    /// None where it is to be made.
+    project_group: Option<wgpu::BindGroup>,
     draw: wgpu::RenderPipeline,
     draw_group: wgpu::BindGroup,
     arguments: wgpu::Buffer,
 }
 
 impl Stars {
-    /// Uploads the catalogue. `table` is [`blackbody_table`](crate::render::frame::blackbody_table).
-    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, stars: &[Star], table: &[[f32; 4]]) -> Self {
+    /// Uploads the catalogue, in the order of its clusters. `table` is [`blackbody_table`](crate::render::frame::blackbody_table).
+    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, mut stars: Vec<Star>, table: &[[f32; 4]]) -> Self {
         let device = &gpu.device;
-        let Arranged { stars: mut sorted, clusters, regions } = arranged(stars);
-        for star in &mut sorted {
+        for star in &mut stars {
             let rgb = blackbody::lookup(table, BLACKBODY_COLDEST, BLACKBODY_HOTTEST, star.temperature);
             star.luminance = blackbody::luminance(rgb.map(f64::from)) as f32;
         }
-        let catalogue = storage(gpu, "stars", &sorted);
+        let catalogue = storage(gpu, "stars", &stars);
         let listed = Growing::new(device, "star clusters", wgpu::BufferUsages::STORAGE);
         let seen =
             buffer(device, "seen stars", SEEN_STAR_BYTES * (stars.len().max(1) as u64) * u64::from(ORDERS), wgpu::BufferUsages::STORAGE);
         let arguments = buffer(device, "star draw", 16, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT);
         let project_layout =
             layout(device, "stars project", wgpu::ShaderStages::COMPUTE, &[Slot::Read, Slot::Write, Slot::Write, Slot::Read]);
-        let project_group = project_bindings(device, &project_layout, [&catalogue, &seen, &arguments, &listed.buffer]);
         let project = compute(device, "stars project", Pass::StarsProject, "main", &[Some(frame_layout), Some(&project_layout)]);
         let draw_layout = layout(device, "stars draw", wgpu::ShaderStages::VERTEX, &[Slot::Read]);
         let draw_group = bind(device, "stars draw", &draw_layout, &[seen.as_entire_binding()]);
@@ -166,39 +61,32 @@ impl Stars {
         };
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, Some(add))], depth: Some(false) };
         let draw = raster(device, "stars draw", &shader, stage, &[Some(frame_layout), Some(&draw_layout)]);
-        Stars { clusters, regions, listed, groups: 0, project_layout, catalogue, seen, project, project_group, draw, draw_group, arguments }
+        Stars { listed, groups: 0, project_layout, catalogue, seen, project, project_group: None, draw, draw_group, arguments }
     }
 
-    /// Lists what may be on the screen of this camera and empties the list of seen stars; before [`Stars::project`]. `table` is the sky's
-    /// for the camera's radius, empty where no stars are wanted; `edge` the angle of the shadow's edge in radians.
-    pub fn prepare(&mut self, gpu: &Gpu, camera: &Observer, table: &[[f32; 4]], edge: f64, size: [u32; 2]) {
-        let aspect = f64::from(size[1]) / f64::from(size[0]);
-        let orders = if table.is_empty() { 0 } else { ORDERS };
-        let mut listed: Vec<[u32; 4]> = (1..=orders)
-            .into_par_iter()
-            .flat_map(|order| self.regions.par_iter().map(move |region| (order, region)))
-            .filter(|(order, region)| cluster_may_be_seen(&region.all, *order, camera, table, edge, aspect))
-            .flat_map_iter(|(order, region)| self.clusters[region.clusters.clone()].iter().map(move |cluster| (order, cluster)))
-            .filter(|(order, cluster)| cluster_may_be_seen(cluster, *order, camera, table, edge, aspect))
-            .map(|(order, cluster)| [cluster.first, cluster.count, order, 0])
-            .collect();
-        // The last workgroup is filled up with empty clusters.
-        self.groups = (listed.len() as u32).div_ceil(CLUSTERS);
-        listed.resize((self.groups * CLUSTERS) as usize, [0; 4]);
-        if self.listed.write(gpu, &listed) {
-            let buffers = [&self.catalogue, &self.seen, &self.arguments, &self.listed.buffer];
-            self.project_group = project_bindings(&gpu.device, &self.project_layout, buffers);
+    /// Uploads the clusters that may be on the screen, and empties the list of seen stars; before [`Stars::project`].
+    pub fn prepare(&mut self, gpu: &Gpu, listed: &[[u32; 4]]) {
+        self.groups = listed.len() as u32 / CLUSTERS;
+        if self.listed.write(gpu, listed) {
+            self.project_group = None;
         }
         gpu.queue.write_buffer(&self.arguments, 0, bytemuck::cast_slice(&[0u32, 1, 0, 0]));
     }
 
+    /// Makes the bind group of a prepared frame, where buffers are others than before.
+    pub fn bind(&mut self, device: &wgpu::Device) {
+        if self.project_group.is_none() {
+            let buffers = [&self.catalogue, &self.seen, &self.arguments, &self.listed.buffer];
+            let resources = buffers.map(|buffer| buffer.as_entire_binding());
+            self.project_group = Some(bind(device, "stars project", &self.project_layout, &resources));
+        }
+    }
+
     /// Projects the stars that may be seen.
     pub fn project(&self, pass: &mut wgpu::ComputePass) {
-        if self.groups == 0 {
-            return;
-        }
+        let Some(group) = self.project_group.as_ref().filter(|_| self.groups > 0) else { return };
         pass.set_pipeline(&self.project);
-        pass.set_bind_group(1, &self.project_group, &[]);
+        pass.set_bind_group(1, group, &[]);
         pass.dispatch_workgroups(self.groups, 1, 1);
     }
 
@@ -207,74 +95,5 @@ impl Stars {
         pass.set_pipeline(&self.draw);
         pass.set_bind_group(1, &self.draw_group, &[]);
         pass.draw_indirect(&self.arguments, 0);
-    }
-}
-
-fn project_bindings(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, buffers: [&wgpu::Buffer; 4]) -> wgpu::BindGroup {
-    bind(device, "stars project", layout, &buffers.map(|buffer| buffer.as_entire_binding()))
-}
-
-#[cfg(test)]
-mod tests {
-    use glam::DQuat;
-
-    use super::*;
-    use crate::render::sky::table::sky_table;
-    use crate::spacetime::light;
-
-    /// Every star that lands on the screen, by the exact solution, is in a cluster that was kept.
-    #[test]
-    fn no_star_on_the_screen_is_left_out() {
-        let mut stars = Vec::new();
-        for k in 0..20_000 {
-            // A spiral over the sphere.
-            let z = 1.0 - 2.0 * (f64::from(k) + 0.5) / 20_000.0;
-            let azimuth = f64::from(k) * 2.399_963;
-            let d = DVec3::new((1.0 - z * z).sqrt() * azimuth.cos(), (1.0 - z * z).sqrt() * azimuth.sin(), z);
-            stars.push(Star { direction: d.as_vec3().to_array(), flux: 1.0, temperature: 5000.0, luminance: 0.0, unused: [0.0; 2] });
-        }
-        let Arranged { stars: sorted, clusters, regions } = arranged(&stars);
-        let mut on_screen = 0;
-        let mut kept = 0;
-        for (position, momentum, angle) in [
-            (DVec3::new(9.0, 2.0, 1.0), DVec3::ZERO, 0.3),
-            (DVec3::new(9.0, 2.0, 1.0), DVec3::new(-0.8, 0.9, 0.2), 2.6),
-            (DVec3::new(0.2, 1.05, 0.3), DVec3::new(1.5, 2.0, -1.0), 1.2),
-            (DVec3::new(0.5, 0.1, 0.3), DVec3::new(-0.4, 0.0, 0.7), 4.4),
-        ] {
-            let attitude = DQuat::from_rotation_y(angle) * DQuat::from_rotation_x(0.4);
-            let camera = Observer { position, momentum, attitude, field_of_view: 1.05 };
-            let (l, size) = (camera.radius(), [640, 360]);
-            let (table, edge) = (sky_table(l), light::shadow_angle(1.0 / l));
-            let n = camera.axis_frame()[0];
-            let may_be_seen = |cluster: &Cluster, order| cluster_may_be_seen(cluster, order, &camera, &table, edge, 360.0 / 640.0);
-            for order in 1..=ORDERS {
-                let of_regions =
-                    regions.iter().flat_map(|region| clusters[region.clusters.clone()].iter().map(move |cluster| (region, cluster)));
-                for (region, cluster) in of_regions {
-                    let keep = may_be_seen(&region.all, order) && may_be_seen(cluster, order);
-                    kept += u32::from(keep);
-                    for star in &sorted[cluster.first as usize..(cluster.first + cluster.count) as usize] {
-                        let d = DVec3::from_array(star.direction.map(f64::from)).normalize();
-                        let phi = d.angle_between(n);
-                        let side = (d - n * d.dot(n)).normalize_or_zero();
-                        let (swept, turn) = if order == 1 { (phi, 1.0) } else { (TAU - phi, -1.0) };
-                        let Some(slope) = light::sky_slope(swept, 1.0 / l) else { continue };
-                        let u = 1.0 / l;
-                        let energy = (slope * slope + u * u - u * u * u).max(0.0).sqrt();
-                        let psi = light::rain_angle(slope, energy, u);
-                        let seen = camera.seen_direction(n * psi.cos() + side * (turn * psi.sin()));
-                        let Some([x, y]) = camera.pixel(seen, size) else { continue };
-                        if (0.0..640.0).contains(&x) && (0.0..360.0).contains(&y) {
-                            on_screen += 1;
-                            assert!(keep, "a star at pixel {x}, {y} in order {order} was left out, camera at {position}");
-                        }
-                    }
-                }
-            }
-        }
-        // The test saw something, and the clusters are not all kept.
-        assert!(on_screen > 3000, "{on_screen}");
-        assert!(f64::from(kept) < 0.5 * (8 * clusters.len()) as f64, "{kept} of {}", 8 * clusters.len());
     }
 }

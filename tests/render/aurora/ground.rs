@@ -54,7 +54,7 @@ fn config() -> GameConfig {
 }
 
 fn parts(renderer: &mut Renderer, scene: &Scene, config: &GameConfig) -> Parts {
-    let stage = Stage::of(renderer, scene, scene.assemble(config), config, Some(white));
+    let mut stage = Stage::of(renderer, scene, scene.assemble(config), config, Some(white));
     let mut frame = stage.frame(stage.camera(0.0, &[]), SIZE, 0.0, &[], None, &settings(config));
     let both = frame.clone();
     let aurora = frame.aurora.as_mut().expect("the aurora is in sight");
@@ -131,7 +131,7 @@ fn without_an_aurora_the_ground_is_as_it_was() {
     let mut renderer = renderer(SIZE);
     let scene = scene_above("arcs", 1.18, 4000.0);
     let mut config = config();
-    let stage = Stage::new(&mut renderer, &scene, &config);
+    let mut stage = Stage::new(&mut renderer, &scene, &config);
     let mut frame = stage.frame(stage.camera(0.0, &[]), SIZE, 0.0, &[], None, &settings(&config));
     let lit = green(&mut renderer, &frame);
     let mut other = frame.clone();
@@ -143,7 +143,7 @@ fn without_an_aurora_the_ground_is_as_it_was() {
     aurora.ground.as_mut().unwrap().light.planet += 1;
     assert_eq!(green(&mut renderer, &other), dark);
     config.aurora.enabled = false;
-    let stage = Stage::new(&mut renderer, &scene, &config);
+    let mut stage = Stage::new(&mut renderer, &scene, &config);
     let frame = stage.frame(stage.camera(0.0, &[]), SIZE, 0.0, &[], None, &settings(&config));
     assert!(frame.aurora.is_none());
     assert_eq!(green(&mut renderer, &frame), dark);
@@ -153,7 +153,7 @@ fn without_an_aurora_the_ground_is_as_it_was() {
     config.aurora.enabled = true;
     for height in [60.0, 300.0] {
         let scene = scene_above("arcs", 1e-4 - std::f64::consts::FRAC_PI_2, height);
-        let stage = Stage::of(&mut renderer, &scene, scene.assemble(&config), &config, Some(white));
+        let mut stage = Stage::of(&mut renderer, &scene, scene.assemble(&config), &config, Some(white));
         let mut frame = stage.frame(stage.camera(0.0, &[]), SIZE, 0.0, &[], None, &settings(&config));
         let south = green(&mut renderer, &frame);
         frame.aurora.as_mut().and_then(|aurora| aurora.ground.take()).expect("the planet is wide enough");
@@ -163,7 +163,7 @@ fn without_an_aurora_the_ground_is_as_it_was() {
 
     // Where the planet is small on the screen no map is made, though its curtains still show.
     let scene = scene_above("arcs", 1.18, 60_000.0);
-    let stage = Stage::new(&mut renderer, &scene, &config);
+    let mut stage = Stage::new(&mut renderer, &scene, &config);
     let frame = stage.frame(stage.camera(0.0, &[]), SIZE, 0.0, &[], None, &settings(&config));
     assert!(frame.aurora.is_some_and(|aurora| aurora.ground.is_none()));
 }

@@ -42,8 +42,8 @@ fn a_step_writes_one_row() {
     // A watched aurora: a frame makes two rows at most.
     let mut renderer = renderer([96, 54]);
     let (scene, config) = (scene::load("aurora-orbit").unwrap(), GameConfig::default());
-    let stage = Stage::new(&mut renderer, &scene, &config).watched();
-    let history = |time: f64| {
+    let mut stage = Stage::new(&mut renderer, &scene, &config).watched();
+    let mut history = |time: f64| {
         let frame = stage.frame(stage.camera(time, &[]), [96, 54], time, &[], None, &settings(&config));
         frame.aurora.unwrap().rows
     };
@@ -112,7 +112,7 @@ fn rows_written_one_by_one_are_drawn_as_all_at_once() {
     let mut config = GameConfig::default();
     config.aurora.streaks = 3000;
     let (mut renderer, mut other) = (renderer(size), renderer(size));
-    let stage = Stage::new(&mut renderer, &scene, &config);
+    let mut stage = Stage::new(&mut renderer, &scene, &config);
     let mut draw = |seconds: f64| {
         let time = seconds / config.aurora.pace;
         // The camera goes with the planet.

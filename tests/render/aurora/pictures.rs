@@ -34,7 +34,7 @@ fn an_aurora_is_drawn_where_it_is_and_only_there() {
     let mut renderer = renderer(size);
     let mut config = GameConfig::default();
     config.aurora.streaks = 3000;
-    let stage = Stage::new(&mut renderer, &scene, &config);
+    let mut stage = Stage::new(&mut renderer, &scene, &config);
     let camera = stage.camera(0.0, &[]);
     let frame = stage.frame(camera, size, 0.0, &[], None, &settings(&config));
     let aurora = frame.aurora.as_ref().expect("the aurora is in sight");
@@ -74,13 +74,13 @@ fn an_aurora_behind_the_hole_leaves_the_shadow_dark() {
     let (scene, config) = (scene::load("aurora-lensed").unwrap(), GameConfig::default());
     let size = [160, 90];
     let mut renderer = renderer(size);
-    let stage = Stage::new(&mut renderer, &scene, &config);
+    let mut stage = Stage::new(&mut renderer, &scene, &config);
     for time in [8.0, 8.5, 9.0, 9.5, 10.0] {
         let camera = stage.camera(time, &[]);
         // The photon sphere's edge as a static camera sees it (Synge 1966).
         let r = camera.radius();
         let shadow = (1.5 * 3f64.sqrt() / r * (1.0 - 1.0 / r).sqrt()).asin();
-        let frame = aurora_alone(&stage, camera, size, time, &config);
+        let frame = aurora_alone(&mut stage, camera, size, time, &config);
         let picture = renderer.picture(&frame, false).unwrap();
         let pixels = 0.5 * f64::from(size[0]) / (0.5 * camera.field_of_view).tan();
         let centre = glam::DVec2::from(camera.pixel(camera.seen_direction(-camera.position), size).unwrap());
@@ -101,12 +101,12 @@ fn brightness_never_jumps() {
     let (scene, config) = orbit_scene();
     let size = [96, 54];
     let mut renderer = renderer(size);
-    let stage = Stage::new(&mut renderer, &scene, &config);
+    let mut stage = Stage::new(&mut renderer, &scene, &config);
     let planet = scene.planet.unwrap().state(0.0).unwrap().position;
     let aside = (planet.normalize() * 0.9 + DVec3::Z * 0.43).normalize();
     let mut light = |distance: f64, time: f64| {
         let camera = static_camera(planet + aside * distance, -aside, DVec3::Z, 0.35);
-        let frame = aurora_alone(&stage, camera, size, time, &config);
+        let frame = aurora_alone(&mut stage, camera, size, time, &config);
         let streaks = frame.aurora.as_ref().map_or(0, |aurora| aurora.settings.streaks);
         (streaks, total(&renderer.picture(&frame, false).unwrap()))
     };
@@ -149,11 +149,11 @@ fn the_disk_dims_an_aurora_behind_it() {
         let mut light = |opacity: f64| {
             let mut config = GameConfig::default();
             (config.aurora.streaks, config.aurora.brightness, config.disk.opacity) = (4000, 0.5, opacity);
-            let stage = Stage::new(&mut renderer, &scene, &config);
+            let mut stage = Stage::new(&mut renderer, &scene, &config);
             let planet = scene.planet.unwrap().state(-14.0).unwrap().position;
             let eye = DVec3::new(0.0, -14.0, 12.0);
             let camera = static_camera(eye, planet - eye, DVec3::Z, 0.35);
-            let mut frame = aurora_alone(&stage, camera, size, 0.0, &config);
+            let mut frame = aurora_alone(&mut stage, camera, size, 0.0, &config);
             let images = frame.aurora.as_ref().expect("the aurora is in sight").behind.clone();
             assert_eq!(images[0], behind, "{images:?}");
             let with = total(&renderer.picture(&frame, false).unwrap());
@@ -175,7 +175,7 @@ fn the_pyramid_changes_no_picture() {
         let mut config = GameConfig::default();
         // Points so wide that they go to coarse levels, and outlines of the planet among them.
         (config.aurora.streaks, config.aurora.radius) = (1500, if name == "aurora-orbit" { 50.0 } else { 12.0 });
-        let stage = Stage::new(&mut renderer, &scene, &config);
+        let mut stage = Stage::new(&mut renderer, &scene, &config);
         let mut frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &settings(&config));
         (frame.settings.stars, frame.settings.milky_way, frame.settings.bloom) = (false, false, 0.0);
         let got = renderer.picture(&frame, false).unwrap();
@@ -208,8 +208,9 @@ fn parts_of_a_streak_that_are_one_stroke_change_no_picture() {
     let mut config = GameConfig::default();
     config.aurora.streaks = 4000;
     for name in ["aurora-below", "aurora-orbit"] {
-        let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
-        let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), size, 0.0, &config);
+        let mut stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
+        let camera = stage.camera(0.0, &[]);
+        let mut frame = aurora_alone(&mut stage, camera, size, 0.0, &config);
         // Parts of a streak, and a picture of each; room for the most.
         let drawn = [24, 48].map(|parts| {
             let settings = &mut frame.aurora.as_mut().unwrap().settings;
@@ -239,8 +240,9 @@ fn the_same_frame_is_drawn_the_same() {
     let mut renderer = renderer(size);
     let config = GameConfig::default();
     for name in ["aurora-below", "aurora-side"] {
-        let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
-        let frame = aurora_alone(&stage, stage.camera(0.0, &[]), size, 0.0, &config);
+        let mut stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
+        let camera = stage.camera(0.0, &[]);
+        let frame = aurora_alone(&mut stage, camera, size, 0.0, &config);
         let [one, other] = [(), ()].map(|()| renderer.picture(&frame, false).unwrap());
         let most = one.linear.iter().flatten().copied().fold(0.0, f32::max);
         assert!(most > 0.1, "{name}: {most}");
@@ -258,8 +260,9 @@ fn nothing_is_left_of_an_earlier_frame() {
     let drawn = |names: &[&str], size: [u32; 2], images: usize| {
         let mut renderer = renderer(size);
         let pictures = names.iter().map(|name| {
-            let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
-            let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), size, 0.0, &config);
+            let mut stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
+            let camera = stage.camera(0.0, &[]);
+            let mut frame = aurora_alone(&mut stage, camera, size, 0.0, &config);
             let aurora = frame.aurora.as_mut().unwrap();
             assert!(*name == "aurora-below" || aurora.instances.len() == images, "{name}: {} images", aurora.instances.len());
             aurora.settings.levels = 1;
@@ -280,8 +283,9 @@ const LENSED_SIZE: [u32; 2] = [591, 333];
 fn nothing_is_left_of_an_earlier_image() {
     let config = GameConfig::default();
     let mut renderer = renderer(LENSED_SIZE);
-    let stage = Stage::new(&mut renderer, &scene::load("aurora-lensed").unwrap(), &config);
-    let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), LENSED_SIZE, 0.0, &config);
+    let mut stage = Stage::new(&mut renderer, &scene::load("aurora-lensed").unwrap(), &config);
+    let camera = stage.camera(0.0, &[]);
+    let mut frame = aurora_alone(&mut stage, camera, LENSED_SIZE, 0.0, &config);
     let whole = frame.aurora.take().unwrap();
     assert_eq!(whole.instances.len(), 2);
     let mut drawn = |images: &[usize]| {
@@ -318,17 +322,18 @@ fn a_watched_aurora_goes_on_without_a_burst() {
     let (scene, config) = orbit_scene();
     let size = [96, 54];
     let mut renderer = renderer(size);
-    let stage = Stage::new(&mut renderer, &scene, &config).watched();
+    let mut stage = Stage::new(&mut renderer, &scene, &config).watched();
     // The camera goes with the planet.
-    let mut light = |stage: &Stage, config: &GameConfig, time: f64| {
-        let frame = aurora_alone(stage, stage.camera(time, &[]), size, time, config);
+    let mut light = |stage: &mut Stage, config: &GameConfig, time: f64| {
+        let camera = stage.camera(time, &[]);
+        let frame = aurora_alone(stage, camera, size, time, config);
         let rows = frame.aurora.as_ref().unwrap().rows.clone();
         (rows, total(&renderer.picture(&frame, false).unwrap()))
     };
     // Ten frames, twelve days of the planet out of sight, ten more: curtains and their brightness go on where they were.
     let gap = 12.0 * scene.planet.unwrap().day;
     let times = (0..10).map(|k| 0.05 * f64::from(k)).chain((0..10).map(|k| gap + 0.05 * f64::from(k)));
-    let steps: Vec<_> = times.map(|time| light(&stage, &config, time)).collect();
+    let steps: Vec<_> = times.map(|time| light(&mut stage, &config, time)).collect();
     for (k, pair) in steps.windows(2).enumerate() {
         // Other rays pass in the meantime; the planet turns a little.
         let ratio = pair[1].1 / pair[0].1;
@@ -340,18 +345,19 @@ fn a_watched_aurora_goes_on_without_a_burst() {
         assert!(kept, "the curtains have moved by more than two rows in a frame");
     }
     // Keys of brightness, walk and pace leave the curtains as they are, and another seed does not.
-    let before = light(&stage, &config, gap + 1.0).0;
+    let before = light(&mut stage, &config, gap + 1.0).0;
     let mut other = config.clone();
     (other.aurora.brightness, other.aurora.pace, other.aurora.walk) = (0.02, 9.0, "linear".into());
     stage.change_aurora(&other.aurora);
-    let after = light(&stage, &other, gap + 1.0).0;
+    let after = light(&mut stage, &other, gap + 1.0).0;
     assert!((0..2).any(|k| after.ago(k) == before.ago(0)), "another pace makes no other curtains");
     other.aurora.seed += 1;
     stage.change_aurora(&other.aurora);
-    assert!(light(&stage, &other, gap + 1.0).0.ago(0) != before.ago(0));
+    assert!(light(&mut stage, &other, gap + 1.0).0.ago(0) != before.ago(0));
     other.aurora.enabled = false;
     stage.change_aurora(&other.aurora);
-    assert!(aurora_alone(&stage, stage.camera(gap + 1.0, &[]), size, gap + 1.0, &other).aurora.is_none());
+    let camera = stage.camera(gap + 1.0, &[]);
+    assert!(aurora_alone(&mut stage, camera, size, gap + 1.0, &other).aurora.is_none());
 }
 
 #[test]
@@ -359,10 +365,11 @@ fn an_oval_is_brighter_at_magnetic_midnight() {
     let (scene, config) = orbit_scene();
     let size = [96, 54];
     let mut renderer = renderer(size);
-    let stage = Stage::new(&mut renderer, &scene, &config);
+    let mut stage = Stage::new(&mut renderer, &scene, &config);
     let planet = scene.planet.unwrap();
     for time in [0.0, 0.3 * planet.day] {
-        let mut frame = aurora_alone(&stage, stage.camera(time, &[]), size, time, &config);
+        let camera = stage.camera(time, &[]);
+        let mut frame = aurora_alone(&mut stage, camera, size, time, &config);
         // In the dipole's axes, which turn with the planet; in space it points away from the hole.
         let [x, y] = frame.aurora.as_ref().unwrap().settings.midnight.map(f64::from);
         let state = planet.state(time).unwrap();
@@ -389,7 +396,7 @@ fn lines_shift_as_the_settings_ask() {
     // The red line's X over Y falls as it becomes greener.
     let mut hue = |lensing: bool, light_delay: bool| {
         (config.render.lensing, config.render.light_delay) = (lensing, light_delay);
-        let stage = Stage::new(&mut renderer, &scene, &config);
+        let mut stage = Stage::new(&mut renderer, &scene, &config);
         let camera = stage.camera(0.0, &[]);
         let frame = stage.frame(camera, size, 0.0, &[], None, &settings(&config));
         let red = frame.aurora.unwrap().colours[0].lines[0][Line::Red as usize];

@@ -88,8 +88,9 @@ fn light(picture: &Picture) -> [f64; 3] {
 }
 
 /// The aurora alone, of a scene's own camera.
-fn alone(stage: &Stage, size: [u32; 2], config: &GameConfig) -> FrameInput {
-    aurora_alone(stage, stage.camera(0.0, &[]), size, 0.0, config)
+fn alone(stage: &mut Stage, size: [u32; 2], config: &GameConfig) -> FrameInput {
+    let camera = stage.camera(0.0, &[]);
+    aurora_alone(stage, camera, size, 0.0, config)
 }
 
 #[test]
@@ -101,21 +102,21 @@ fn fewer_streaks_are_wider_and_as_bright() {
     config.aurora.share = 0.02;
     for name in ["aurora-side", "aurora-below", "aurora-orbit"] {
         let scene = scene::load(name).unwrap();
-        let stage = Stage::new(&mut renderer, &scene, &config);
-        let all = alone(&stage, size, &config);
+        let mut stage = Stage::new(&mut renderer, &scene, &config);
+        let all = alone(&mut stage, size, &config);
         let whole = renderer.picture(&all, false).unwrap();
         let mut number = 0;
         // Measured: 0.17 to 0.23 and 0.27 to 0.36, which is the rays that are washed out.
         for (part, limit) in [(0.5, 0.28), (0.25, 0.42)] {
             // Until so many are left.
             let count = |frame: &FrameInput| frame.aurora.as_ref().unwrap().settings.streaks;
-            while f64::from(count(&alone(&stage, size, &config))) > part * f64::from(count(&all)) && number < 40 {
+            while f64::from(count(&alone(&mut stage, size, &config))) > part * f64::from(count(&all)) && number < 40 {
                 number += 1;
                 stage.ration_aurora(&times(1.0, 1.0, 1.0, 1.0, number));
             }
-            let left = f64::from(count(&alone(&stage, size, &config))) / f64::from(count(&all));
+            let left = f64::from(count(&alone(&mut stage, size, &config))) / f64::from(count(&all));
             assert!((0.7 * part..=part).contains(&left), "{name}: {left} of the streaks are left, not {part}");
-            let fewer = renderer.picture(&alone(&stage, size, &config), false).unwrap();
+            let fewer = renderer.picture(&alone(&mut stage, size, &config), false).unwrap();
             let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
             let off: f64 = fewer.linear.iter().zip(&whole.linear).map(|(p, q)| square(p, q)).sum();
             let sum: f64 = whole.linear.iter().map(|p| square(p, &[0.0; 4])).sum();
@@ -136,10 +137,10 @@ fn an_aurora_is_as_bright_in_a_picture_of_any_size() {
     let mut config = GameConfig::default();
     // So wide that strokes are hundreds of pixels wide in the larger picture.
     (config.aurora.radius, config.aurora.streaks) = (50.0, 3000);
-    let stage = Stage::new(&mut renderer, &scene::load("aurora-below").unwrap(), &config);
+    let mut stage = Stage::new(&mut renderer, &scene::load("aurora-below").unwrap(), &config);
     let mut mean = |size: [u32; 2]| {
         renderer.resize(size);
-        let picture = renderer.picture(&alone(&stage, size, &config), false).unwrap();
+        let picture = renderer.picture(&alone(&mut stage, size, &config), false).unwrap();
         light(&picture).map(|sum| sum / f64::from(size[0] * size[1]))
     };
     let (small, large) = (mean([160, 90]), mean([960, 540]));

@@ -54,7 +54,7 @@ fn without_doppler_and_beaming_no_shift_is_looked_for() {
         let mut config = GameConfig::default();
         (config.render.doppler, config.render.beaming) = (doppler, beaming);
         let settings = settings(&config);
-        let stage = Stage::new(&mut renderer, &scene, &config);
+        let mut stage = Stage::new(&mut renderer, &scene, &config);
         // One that does not turn with the planet.
         let state = scene.planet.unwrap().state(0.0).unwrap();
         let aside = (state.position.normalize() * 0.9 + DVec3::Z * 0.43).normalize();

@@ -33,10 +33,10 @@ fn an_aurora_behind_the_camera_is_not_simulated() {
     let mut config = GameConfig::default();
     config.aurora.streaks = 1000;
     let mut renderer = renderer();
-    let stage = Stage::new(&mut renderer, &scene, &config);
-    let is_seen = |camera: Observer| stage.frame(camera, SIZE, 0.0, &[], None, &settings(&config)).aurora.is_some();
-    // Two thousand kilometres up: half of the sky is planet.
+    let mut stage = Stage::new(&mut renderer, &scene, &config);
     let orbit = stage.camera(0.0, &[]);
+    let mut is_seen = |camera: Observer| stage.frame(camera, SIZE, 0.0, &[], None, &settings(&config)).aurora.is_some();
+    // Two thousand kilometres up: half of the sky is planet.
     assert!(is_seen(orbit), "from orbit");
     let turned = |axis: DVec3| Observer { attitude: orbit.attitude * DQuat::from_axis_angle(axis, std::f64::consts::PI), ..orbit };
     assert!(!is_seen(turned(DVec3::X)) && !is_seen(turned(DVec3::Y)), "from orbit, the look reversed");

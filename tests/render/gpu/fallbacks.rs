@@ -12,7 +12,7 @@ fn drawn(gpu: &Gpu, surroundings: &Surroundings, name: &str, size: [u32; 2]) -> 
     let mut config = GameConfig::default();
     config.aurora.streaks = 4000;
     let mut renderer = Renderer::new(gpu, surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
+    let mut stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
     let mut settings = settings(&config);
     (settings.stars, settings.milky_way, settings.bloom) = (false, false, 0.0);
     let input = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &settings);

@@ -173,7 +173,7 @@ fn a_surface_goes_through_the_camera() {
     let histories: Vec<&History> = moment.histories().into_iter().chain([&nobody]).chain(moment.bolts()).collect();
     let surroundings = Surroundings { table: shared_table(), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
     let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, SIZE);
-    let stage = Stage::new(&mut renderer, &scene, &config);
+    let mut stage = Stage::new(&mut renderer, &scene, &config);
     // Fired by hands at T = 12.24: the camera is still within it.
     let time = 12.25;
     let camera = third_person(&state_at(histories[0], time), DVec3::ZERO, DQuat::IDENTITY, 1.0);

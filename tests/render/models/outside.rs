@@ -74,7 +74,7 @@ fn nothing_that_is_seen_is_left_out() {
         let scene = scene::load(name).unwrap();
         let config = GameConfig::default();
         let mut renderer = renderer(size);
-        let stage = Stage::new(&mut renderer, &scene, &config);
+        let mut stage = Stage::new(&mut renderer, &scene, &config);
         // Thin images count layers, and leave out the backs of closed bodies by another rule.
         let settings = Settings { stars: false, milky_way: false, bloom: 0.0, min_width: 0.0, ..Settings::finest() };
         let mut seen = |both: bool| {

@@ -1,0 +1,67 @@
+//! A frame as a picture: drawn, and brought back.
+
+use crate::render::frame::FrameInput;
+use crate::render::gpu::readback::{self, Picture, PictureError};
+use crate::render::gpu::targets::target;
+use crate::render::passes::{begin_thin, colour, depth};
+use crate::render::post_process::coverage::covered;
+use crate::render::renderer::Renderer;
+
+impl Renderer {
+    /// Draws one frame into a texture of its own and brings it back. The exposure settles first: the frame is drawn twice. Of a frame that
+    /// is drawn smaller than the output there is the finished picture alone.
+    pub fn picture(&mut self, input: &FrameInput, layers: bool) -> Result<Picture, PictureError> {
+        let format = wgpu::TextureFormat::Rgba8UnormSrgb;
+        let (texture, view) = target(&self.gpu.device, "output", self.output.0, format);
+        for _ in 0..2 {
+            if !self.prepare(input) {
+                return Err(self.gpu.watch.complaint().map_or(PictureError::Nothing, PictureError::Device));
+            }
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            self.encode(&mut encoder, &view);
+            if layers {
+                self.encode_layers(&mut encoder);
+            }
+            self.gpu.queue.submit([encoder.finish()]);
+        }
+        let display = readback::texture(&self.gpu, &texture, 4)?;
+        if self.upscale.drawn().is_some() {
+            return Ok(Picture { size: self.output.0, display, ..Picture::default() });
+        }
+        let halves = readback::texture(&self.gpu, &self.targets.picture_texture, 8)?;
+        let linear = halves
+            .chunks_exact(8)
+            .map(|texel| std::array::from_fn(|k| half::f16::from_le_bytes([texel[2 * k], texel[2 * k + 1]]).to_f32()))
+            .collect();
+        let (layers, surface) = match &self.targets.layers {
+            Some(targets) if layers => (readback::floats(&self.gpu, &targets.what.0)?, readback::floats(&self.gpu, &targets.surface.0)?),
+            _ => Default::default(),
+        };
+        let thin = if !layers.is_empty() && self.geometry.has_thin() {
+            let sums = readback::texture(&self.gpu, &self.targets.thin_texture, 8)?;
+            let signed = readback::texture(&self.gpu, &self.targets.thin_signed_texture, 4)?;
+            let number = |bytes: &[u8]| half::f16::from_le_bytes([bytes[0], bytes[1]]).to_f32();
+            sums.chunks_exact(8).zip(signed.chunks_exact(4)).map(|(sum, signed)| covered(number(&sum[6..]), number(signed))).collect()
+        } else {
+            Vec::new()
+        };
+        Ok(Picture { size: self.targets.size, display, linear, layers, surface, thin })
+    }
+
+    fn encode_layers(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        let Some(frame_group) = &self.frame_group else { return };
+        if self.geometry.has_thin() {
+            // The sum of all: among images of the disk they are drawn in parts.
+            self.geometry.draw_thin(&mut begin_thin(true, None, encoder, frame_group, &self.targets));
+        }
+        let targets = self.targets.layers(&self.gpu.device);
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("layers"),
+            color_attachments: &[Some(colour(&targets.what.1, true)), Some(colour(&targets.surface.1, true))],
+            depth_stencil_attachment: Some(depth(&targets.depth, true)),
+            ..Default::default()
+        });
+        pass.set_bind_group(0, frame_group, &[]);
+        self.geometry.draw_layers(&mut pass);
+    }
+}

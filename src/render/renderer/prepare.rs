@@ -1,0 +1,141 @@
+//! A frame from its input to the buffers of the device, in three steps: planned, uploaded, bound.
+
+use std::time::Instant;
+
+use crate::render::disk::DiskPasses;
+use crate::render::disk::view::DiskView;
+use crate::render::frame::{FrameInput, uniform};
+use crate::render::geometry::lists::BodyLists;
+use crate::render::gpu::layout::bind;
+use crate::render::gpu::targets::Targets;
+use crate::render::post_process::upscale::drawn_size;
+use crate::render::renderer::plan::FramePlan;
+use crate::render::renderer::{Before, Renderer};
+
+impl Renderer {
+    /// Plans a frame: works out all that the processor has to, and touches nothing of the device. There must be a device and a size, and
+    /// the camera must be finite and away from r = 0; else nothing is planned, and false is returned.
+    pub fn plan(&mut self, input: &FrameInput) -> bool {
+        self.plan = None;
+        let camera = &input.camera;
+        if self.hidden || self.gpu.watch.complaint().is_some() {
+            return false;
+        }
+        if !(camera.position.is_finite() && camera.momentum.is_finite() && camera.attitude.is_finite() && camera.radius() > 1e-3) {
+            return false;
+        }
+        self.output.1 = input.settings.resolution;
+        let size = drawn_size(self.output.0, self.output.1);
+        self.timing.begin_work();
+        let begin = Instant::now();
+        self.slices.follow(&mut self.tables, camera.radius(), input.settings.method);
+        let begin = self.timing.worked("slice of the table", begin);
+        let disk = self.disk.as_ref().filter(|_| self.has_disk).map(DiskPasses::disk);
+        let view = disk.zip(self.slices.slice.as_ref()).map(|(disk, slice)| DiskView::new(disk, input, slice, size[0]));
+        let begin = self.timing.worked("view of the disk", begin);
+        let most = self.gpu.device.limits().max_storage_buffer_binding_size;
+        let bodies = BodyLists::new(&input.placed, input.settings.vertex_budget, most);
+        let mut uniform = uniform(input, size, bodies.capacity);
+        if let Some(disk) = disk {
+            uniform.exposure_key = disk.config.exposure_key as f32;
+            uniform.disk_indices = [1; 4];
+        }
+        let begin = self.timing.worked("lists of bodies", begin);
+        let edge = f64::from(uniform.shadow_edge);
+        let stars = if input.settings.stars { self.clusters.listed(camera, &self.slices.sky, edge, size) } else { Vec::new() };
+        self.timing.worked("lists of stars", begin);
+        self.plan = Some(FramePlan { size, uniform, disk: view, bodies, stars });
+        true
+    }
+
+    /// Uploads the planned frame of this input, and gives buffers, textures and targets the sizes that it needs. Without a plan nothing is
+    /// done.
+    pub fn prepare_resources(&mut self, input: &FrameInput) {
+        let Some(FramePlan { size, mut uniform, disk: view, bodies, stars }) = self.plan.take() else { return };
+        self.make_targets(size);
+        let begin = Instant::now();
+        if std::mem::take(&mut self.slices.are_new) {
+            // The slices depend on radius and method alone.
+            let method = input.settings.method;
+            self.geometry.set_method(method, input.camera.radius() < 1.0);
+            if self.method != method {
+                self.aurora.set_method(&self.gpu.device, &self.frame_layout, method);
+                self.method = method;
+            }
+            if self.lens_slice.write(&self.gpu, &self.slices.lens) {
+                self.frame_group = None;
+            }
+            self.sky_slice.write(&self.gpu, &self.slices.sky);
+        }
+        let begin = self.timing.worked("slice of the table", begin);
+        if let (Some(disk), Some(view)) = (&mut self.disk, view) {
+            disk.prepare(&self.gpu, &self.frame_layout, input, view, size[0]);
+        }
+        let begin = self.timing.worked("view of the disk", begin);
+        let ground = input.aurora.as_ref().and_then(|aurora| aurora.ground.as_ref());
+        self.geometry.prepare(&self.gpu, bodies, ground);
+        if self.geometry.has_thin() {
+            self.thin.prepare(&self.gpu, self.geometry.capacity().thin, size);
+        }
+        self.finish.steady = input.settings.rise.is_finite();
+        match self.before {
+            Before::Black => {}
+            // Nobody sees a jump here: it is the picture that was shown without a bound.
+            Before::Unmeasured => uniform.most_rise = f32::MAX,
+            Before::Measured => uniform.rise_per_luminance = 1.0,
+        }
+        self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
+        let begin = self.timing.worked("lists of bodies", begin);
+        self.stars.prepare(&self.gpu, &stars);
+        let begin = self.timing.worked("lists of stars", begin);
+        self.background.prepare(&self.gpu, size);
+        self.aurora.prepare(&self.gpu, input.aurora.as_ref(), &self.targets);
+        self.finish.smooth = input.settings.smooth && !input.placed.is_empty();
+        self.finish.blooms = input.settings.bloom > 0.0;
+        self.finish.resolution = input.settings.resolution;
+        self.timing.worked("rest of the uploads", begin);
+    }
+
+    /// Makes the bind groups of a frame whose resources are prepared: those whose resources are others than before. What only the size of
+    /// the targets changes is bound with them.
+    pub fn prepare_bind_groups(&mut self) {
+        let begin = Instant::now();
+        let device = &self.gpu.device;
+        if self.frame_group.is_none() {
+            let tables = [&self.lens_slice, &self.sky_slice, &self.blackbody];
+            let [lens, sky, blackbody] = tables.map(|table| table.binding());
+            let resources = [self.frame.as_entire_binding(), lens, sky, blackbody];
+            self.frame_group = Some(bind(device, "frame", &self.frame_layout, &resources));
+        }
+        if let Some(disk) = self.disk.as_mut().filter(|_| self.has_disk) {
+            disk.bind(device);
+        }
+        self.geometry.bind(device, &self.models);
+        if self.geometry.has_thin() {
+            self.thin.bind(device, [self.geometry.thin(), self.geometry.arguments()]);
+        }
+        self.stars.bind(device);
+        self.background.bind(device);
+        self.aurora.bind(device);
+        self.timing.worked("rest of the uploads", begin);
+    }
+
+    /// All three steps, for who has no App: false if nothing was planned, and the frame stays as it was.
+    pub fn prepare(&mut self, input: &FrameInput) -> bool {
+        let is_planned = self.plan(input);
+        if is_planned {
+            self.prepare_resources(input);
+            self.prepare_bind_groups();
+        }
+        is_planned
+    }
+
+    /// Makes targets of this size, for the output as it is.
+    fn make_targets(&mut self, drawn: [u32; 2]) {
+        self.upscale.resize(&self.gpu.device, drawn, self.output.0);
+        if drawn != self.targets.size {
+            self.targets = Targets::new(&self.gpu.device, drawn);
+            self.post_process.resize(&self.gpu, &self.targets, &self.adaptation);
+        }
+    }
+}
