@@ -20,7 +20,7 @@ pub enum ChartCommand {
     Projection(projection::ProjectionRequest),
     Trace(thin_disk::ThinDiskRequest),
     Aurora(AuroraArgs),
-    Bvh(BvhArgs),
+    Bvh(bvh::BvhRequest),
     Frame(frame_times::FrameTimesRequest),
     Dial(dial::DialRequest),
     Disk(disk::request::DiskRequest),
@@ -59,26 +59,6 @@ pub struct AuroraArgs {
     repeats: u8,
 }
 
-/// Tracers of straight rays on one thread: ours, those of Sei 2008, the crates obvhs and bvh, and Embree in a build with the feature
-/// embree.
-#[derive(Args)]
-pub struct BvhArgs {
-    #[command(flatten)]
-    output: Output,
-    /// Scenes: balls4A, balls4B, balls4C, tree10, castle, bunny; and needles, 200,000 long ones, which trees of boxes hold badly.
-    #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "bunny,castle,tree10,balls4A,balls4B,balls4C")]
-    scenes: Vec<String>,
-    /// How often each method runs; the median counts.
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = whole::<u8>(1, 255))]
-    rounds: u8,
-    /// The Stanford bunny, binary PLY of triangles; without it a blob of as many triangles takes its place.
-    #[arg(long, value_name = "FILE.ply", default_value = "../shared/data/bunny.ply")]
-    bunny: PathBuf,
-    /// Compares hits instead of timing: all methods with each other, 2,000 rays and every dispute with brute force in f64.
-    #[arg(long)]
-    check: bool,
-}
-
 /// Runs one of them, and says what was written, or what went wrong.
 pub fn run(chart: ChartCommand) -> ExitCode {
     finish(match &chart {
@@ -88,7 +68,7 @@ pub fn run(chart: ChartCommand) -> ExitCode {
         }
         ChartCommand::Trace(request) => thin_disk::run(request),
         ChartCommand::Aurora(args) => run_aurora(args),
-        ChartCommand::Bvh(args) => run_bvh(args),
+        ChartCommand::Bvh(request) => bvh::run(request),
         ChartCommand::Frame(request) => frame_times::run(request),
         ChartCommand::Dial(request) => dial::run(request),
         ChartCommand::Disk(request) => disk::chart::run(request),
@@ -125,17 +105,4 @@ fn run_aurora(args: &AuroraArgs) -> Result<Vec<PathBuf>, ChartError> {
         repeats: usize::from(args.repeats),
     };
     aurora::chart::run(&args.output, &experiment).map_err(|error| ChartError::Failed(error.to_string()))
-}
-
-fn run_bvh(args: &BvhArgs) -> Result<Vec<PathBuf>, ChartError> {
-    let request = bvh::BvhRequest {
-        output: args.output.clone(),
-        scenes: args.scenes.clone(),
-        size: [1024, 768],
-        rounds: args.rounds.into(),
-        bunny: args.bunny.clone(),
-        check: args.check,
-    };
-    bvh::run(&request)
-        .map_err(|error| if error.is_input() { ChartError::Input(error.to_string()) } else { ChartError::Failed(error.to_string()) })
 }

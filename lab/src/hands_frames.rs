@@ -70,8 +70,8 @@ fn measure(request: &HandsRequest) -> Result<Sheet, ChartError> {
     for name in &request.scenes {
         for (seed, pace) in PACES.into_iter().enumerate() {
             let row = fly(&gpu, name, pace, seed as u64, request.frames.div_ceil(flights), request.size)?;
-            say(row.join("  "));
-            sheet.push(row);
+            say(row.replace('|', "  "));
+            sheet.line(row);
         }
     }
     Ok(sheet)
@@ -85,7 +85,7 @@ struct Drawn {
 }
 
 /// The row of one flight; where it is decided, the next begins.
-fn fly(gpu: &Gpu, name: &str, pace: f64, seed: u64, frames: usize, size: [u32; 2]) -> Result<Vec<String>, ChartError> {
+fn fly(gpu: &Gpu, name: &str, pace: f64, seed: u64, frames: usize, size: [u32; 2]) -> Result<String, ChartError> {
     let scene = scene::load(name)?;
     let mut config = GameConfig::default();
     config.clock.pace = pace;
@@ -136,20 +136,9 @@ fn fly(gpu: &Gpu, name: &str, pace: f64, seed: u64, frames: usize, size: [u32; 2
     }
     let longest = drawn.iter().max_by(|a, b| a.milliseconds.total_cmp(&b.milliseconds));
     let (longest, at) = longest.map_or((f64::NAN, f64::NAN), |frame| (frame.milliseconds, frame.time));
-    let median_time = quantile(drawn.iter().map(|frame| frame.milliseconds), 0.5);
+    let median = quantile(drawn.iter().map(|frame| frame.milliseconds), 0.5);
     let vertices = || drawn.iter().map(|frame| frame.vertices);
     let vertices = vertices().fold(0.0, f64::max) / quantile(vertices(), 0.5);
-    Ok(vec![
-        name.to_owned(),
-        pace.to_string(),
-        drawn.len().to_string(),
-        format!("{median_time:.2}"),
-        format!("{longest:.2}"),
-        format!("{:.2}", longest / median_time),
-        format!("{at:.4}"),
-        format!("{vertices:.2}"),
-        coarse.to_string(),
-        not_finite.to_string(),
-        calmed.to_string(),
-    ])
+    let (count, ratio) = (drawn.len(), longest / median);
+    Ok(format!("{name}|{pace}|{count}|{median:.2}|{longest:.2}|{ratio:.2}|{at:.4}|{vertices:.2}|{coarse}|{not_finite}|{calmed}"))
 }

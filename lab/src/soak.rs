@@ -63,7 +63,7 @@ fn resident() -> Option<f64> {
 fn note(sheet: &mut Sheet, what: &str, done: u64) {
     let memory = resident().unwrap_or(f64::NAN);
     say(format_args!("{done} {what}: {memory:.1} MiB"));
-    sheet.push([what.to_owned(), done.to_string(), format!("{memory:.1}")]);
+    sheet.line(format_args!("{what}|{done}|{memory:.1}"));
 }
 
 /// Runs both, writes `soak.csv` and says what came out.
@@ -131,7 +131,7 @@ fn show(gpu: &Gpu, frames: u64, sheet: &mut Sheet) -> Result<(), ChartError> {
 
 /// Growth from the third tenth on: before that caches fill.
 pub fn verdict(sheet: &Sheet, what: &str) -> String {
-    let rows: Vec<_> = sheet.rows.iter().filter(|row| sheet.text(row, "what") == what).collect();
+    let rows: Vec<_> = sheet.of([("what", what)]).collect();
     let (Some(early), Some(last)) = (rows.get(2), rows.last()) else { return format!("{what}: too few to tell") };
     let [from, to] = [early, last].map(|row| sheet.number(row, "resident MiB"));
     format!("{what}: {from:.1} MiB after {}, {to:.1} MiB after {}", sheet.text(early, "done"), sheet.text(last, "done"))

@@ -4,61 +4,51 @@ use glam::Vec3;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use super::contest::Built;
-use super::rays::{Job, SIZES, tiled};
-use super::request::ChartError;
+use super::contest::{Built, Entry, entries};
+use super::rays::Job;
+use crate::chart::ChartError;
 use crate::straight::scenes::Triangle;
-use crate::straight::{EyePacket, EyePackets, Hit, Packets, Ray, order};
+use crate::straight::{Hit, Ray};
 
 /// Rays that are tried against every triangle.
 const SAMPLE: usize = 2000;
 
+/// A method and its hits, in the order of pixels.
+type Found = (String, Vec<Hit>);
+
 /// Checks one scene, says on stderr what it found, and returns the number of hits that are wrong.
 pub fn check(job: &Job) -> Result<usize, ChartError> {
     let built = Built::new(job)?;
-    let single: Vec<Hit> = job.primary.iter().map(|ray| built.mesh.closest(ray)).collect();
-    let differ = primary_that_differ(job, &built, &single) + secondary_that_differ(job, &built);
-    Ok(differ + wrong_by_brute_force(job, &built, &single))
-}
-
-/// How many hits of our methods are not those of `single` rays, bit for bit.
-fn primary_that_differ(job: &Job, built: &Built, single: &[Hit]) -> usize {
-    let mut all = 0;
-    for (name, hits) in ours(job, built) {
-        let differ = differences(&hits, single);
-        if differ > 0 {
-            eprintln!("{}: {name}: {differ} of {} rays differ from single rays", job.scene.name, single.len());
+    let closest = |rays: &[Ray]| -> Vec<Hit> { rays.iter().map(|ray| built.mesh.closest(ray)).collect() };
+    let single = closest(&job.primary);
+    let (mut theirs, mut differ): (Vec<Found>, usize) = (Vec::new(), 0);
+    for entry in &mut entries(job, &built) {
+        let name = format!("{} {}, {}", entry.method, entry.packet, entry.kind);
+        let is_theirs = entry.method == "obvhs" || entry.method.starts_with("Embree");
+        if entry.kind == "primary" && is_theirs {
+            theirs.push((name, hits_of(entry)));
+        } else if (entry.kind == "primary" && entry.method != "bvh") || entry.method == "ours" {
+            let rays = job.secondary.iter().find(|(kind, _)| *kind == entry.kind).map(|(_, rays)| closest(rays));
+            let expected = rays.as_ref().unwrap_or(&single);
+            let others = hits_of(entry).iter().zip(expected).filter(|(a, b)| a != b).count();
+            eprintln!("{}: {name}: {others} of {} rays differ from single rays", job.scene.name, expected.len());
+            differ += others;
         }
-        all += differ;
     }
-    all
+    Ok(differ + wrong_by_brute_force(job, &single, &theirs))
 }
 
-/// How many hits of rays that go on from the first hits differ between packets and single rays.
-fn secondary_that_differ(job: &Job, built: &Built) -> usize {
-    let mut all = 0;
-    for (kind, rays) in &job.secondary {
-        let single: Vec<Hit> = rays.iter().map(|ray| built.mesh.closest(ray)).collect();
-        let mut hits = vec![Hit::MISS; rays.len()];
-        let mut packets = Packets::default();
-        for (rays, hits) in rays.chunks(1024).zip(hits.chunks_mut(1024)) {
-            built.wide.closest_packet(rays, hits, &mut packets);
-        }
-        let differ = differences(&hits, &single);
-        eprintln!("{}: {kind}: {differ} of {} rays differ between packets and single rays", job.scene.name, rays.len());
-        all += differ;
-    }
-    all
-}
-
-fn differences(hits: &[Hit], others: &[Hit]) -> usize {
-    hits.iter().zip(others).filter(|(a, b)| a != b).count()
+fn hits_of(entry: &mut Entry) -> Vec<Hit> {
+    let mut found = vec![Hit::MISS; entry.rays];
+    (entry.trace)(&mut found);
+    let mut hits = found.clone();
+    entry.pixels.iter().zip(found).for_each(|(&pixel, hit)| hits[pixel as usize] = hit);
+    hits
 }
 
 /// How many of our hits are wrong, of some rays and of all where others meet another triangle: they may, by rounding.
-fn wrong_by_brute_force(job: &Job, built: &Built, single: &[Hit]) -> usize {
-    let theirs = theirs(job, built);
-    let disputed = disputed(job, single, &theirs);
+fn wrong_by_brute_force(job: &Job, single: &[Hit], theirs: &[Found]) -> usize {
+    let disputed = disputed(job, single, theirs);
     let random = &mut StdRng::seed_from_u64(9);
     let mut judged: Vec<usize> = (0..SAMPLE).map(|_| random.random_range(0..single.len())).collect();
     judged.extend(&disputed);
@@ -92,17 +82,13 @@ fn wrong_by_brute_force(job: &Job, built: &Built, single: &[Hit]) -> usize {
 }
 
 /// The rays for which another meets another triangle, in order. Says how many they are for each.
-fn disputed(job: &Job, single: &[Hit], theirs: &[(String, Vec<Hit>)]) -> Vec<usize> {
+fn disputed(job: &Job, single: &[Hit], theirs: &[Found]) -> Vec<usize> {
     let mut disputed: Vec<usize> = Vec::new();
     for (name, hits) in theirs {
         let others: Vec<usize> = (0..single.len()).filter(|&i| hits[i].triangle != single[i].triangle).collect();
         let clear = others.iter().filter(|&&i| !together(hits[i], single[i])).count();
-        eprintln!(
-            "{}: {name}: another triangle at {} of {} rays, {clear} of them not at the same place",
-            job.scene.name,
-            others.len(),
-            single.len()
-        );
+        let (scene, count, all) = (job.scene.name, others.len(), single.len());
+        eprintln!("{scene}: {name}: another triangle at {count} of {all} rays, {clear} of them not at the same place");
         disputed.extend(others);
     }
     disputed.sort_unstable();
@@ -110,67 +96,9 @@ fn disputed(job: &Job, single: &[Hit], theirs: &[(String, Vec<Hit>)]) -> Vec<usi
     disputed
 }
 
-/// Hits of the others in the order of pixels.
-fn theirs(job: &Job, built: &Built) -> Vec<(String, Vec<Hit>)> {
-    #[allow(unused_mut)]
-    let mut all: Vec<(String, Vec<Hit>)> =
-        built.obvhs.iter().map(|tree| ("obvhs".to_owned(), job.primary.iter().map(|ray| tree.closest(ray)).collect())).collect();
-    #[cfg(feature = "embree")]
-    for way in super::embree::WAYS {
-        let (rays, starts) = tiled(&job.primary, job.size, way.tile());
-        let (pixels, _) = order::tiles(job.size, way.tile());
-        let mut found = vec![Hit::MISS; rays.len()];
-        built.embree.trace(way, rays, starts)(&mut found);
-        let mut hits = vec![Hit::MISS; found.len()];
-        for (pixel, hit) in pixels.into_iter().zip(found) {
-            hits[pixel as usize] = hit;
-        }
-        all.push((format!("{} {}", way.name(), way.packet()), hits));
-    }
-    all
-}
-
 /// Whether both missed, or met something within rounding of the same place.
 fn together(a: Hit, b: Hit) -> bool {
     if a.is_hit() && b.is_hit() { (a.t - b.t).abs() <= 2e-5 * (1.0 + a.t) } else { a.is_hit() == b.is_hit() }
-}
-
-fn ours(job: &Job, built: &Built) -> Vec<(String, Vec<Hit>)> {
-    let rays = &job.primary;
-    let mut each = vec![Hit::MISS; rays.len()];
-    built.wide.closest_each(rays, &mut each);
-    let mut all = vec![("tree of eight".to_owned(), each)];
-    for size in SIZES.into_iter().chain([1]) {
-        let mut hits = vec![Hit::MISS; rays.len()];
-        let (tiles, starts) = tiled(rays, job.size, size);
-        let (pixels, _) = order::tiles(job.size, size);
-        let mut packets = Packets::default();
-        for run in starts.windows(2) {
-            let mut found = vec![Hit::MISS; run[1] - run[0]];
-            built.wide.closest_packet(&tiles[run[0]..run[1]], &mut found, &mut packets);
-            for (&pixel, hit) in pixels[run[0]..run[1]].iter().zip(found) {
-                hits[pixel as usize] = hit;
-            }
-        }
-        all.push((format!("ours {size}"), hits));
-        for splits in 0..=2 {
-            let (pixels, starts) = order::squares(job.size, size);
-            let mut hits = vec![Hit::MISS; rays.len()];
-            let mut scratch = EyePackets::default();
-            for run in starts.windows(2) {
-                let pixels = &pixels[run[0]..run[1]];
-                let directions: Vec<_> = pixels.iter().map(|&i| rays[i as usize].direction).collect();
-                let mut found = vec![Hit::MISS; pixels.len()];
-                let packet = EyePacket { eye: rays[0].origin, directions: &directions, screen: job.screen };
-                built.mesh.closest_packet(&packet, splits, &mut found, &mut scratch);
-                for (&pixel, hit) in pixels.iter().zip(found) {
-                    hits[pixel as usize] = hit;
-                }
-            }
-            all.push((format!("{splits} splits, {size}"), hits));
-        }
-    }
-    all
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

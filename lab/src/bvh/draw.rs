@@ -1,13 +1,13 @@
 //! The picture: the figures of Sei 2008 again, and who is faster.
 
-use super::super::chart::{Provenance, Sheet};
-use super::super::plot::{Axis, Bars, Figure, Guide, Line, Lines, Panel, Series};
+use super::SCENES;
 use super::rays::SIZES;
-use super::request::{ALL, SCENES};
+use crate::chart::{Provenance, Sheet, range};
+use crate::plot::{Axis, Bars, Figure, Guide, Line, Lines, Panel, Series};
 
 /// Panels: figures 3.17 and 4.8, 4.9 to 4.14 (with 4.16 and 4.17 in castle and balls4A), then the comparisons.
 pub fn draw(sheet: &Sheet) -> Figure {
-    let scenes: Vec<&str> = ALL.into_iter().filter(|name| sheet.rows.iter().any(|row| sheet.text(row, "scene") == *name)).collect();
+    let scenes: Vec<&str> = SCENES.into_iter().filter(|name| sheet.of([("scene", name)]).next().is_some()).collect();
     let mut panels: Vec<Panel> = scenes.iter().map(|scene| one_scene(sheet, scene)).collect();
     panels.push(one_method(sheet, &scenes, "Wald", "Packets of fixed size (figure 3.17)"));
     panels.push(one_method(sheet, &scenes, "split 4", "Split in 4 (figure 4.8)"));
@@ -38,8 +38,7 @@ fn verdict(sheet: &Sheet, scenes: &[&str]) -> String {
             let of = |method, packet| speed(sheet, scene, method, "primary", packet, "Mrays_per_s");
             of("ours", 16) / of(method, packet)
         };
-        let ratios = scenes.iter().map(of).filter(|ratio| ratio.is_finite());
-        ratios.fold([f64::INFINITY, 0.0], |[least, most], ratio| [least.min(ratio), most.max(ratio)])
+        range(scenes.iter().map(of))
     };
     let (embree, obvhs) = (ratios(EMBREE, 0), ratios("obvhs", 1));
     let text = |name: &str, [least, most]: [f64; 2]| {
@@ -54,17 +53,11 @@ const EMBREE: &str = "best of Embree";
 /// A column of a method, or NaN where it was not measured.
 fn speed(sheet: &Sheet, scene: &str, method: &str, kind: &str, packet: usize, column: &str) -> f64 {
     if method == EMBREE {
-        let of_it = sheet.rows.iter().filter(|row| {
-            sheet.text(row, "scene") == scene && sheet.text(row, "rays") == kind && sheet.text(row, "method").starts_with("Embree ")
-        });
+        let of_it = sheet.of([("scene", scene), ("rays", kind)]).filter(|row| sheet.text(row, "method").starts_with("Embree "));
         return of_it.map(|row| sheet.number(row, column)).fold(f64::NAN, f64::max);
     }
-    let wanted = [("scene", scene), ("method", method), ("rays", kind)];
-    sheet
-        .rows
-        .iter()
-        .find(|row| wanted.iter().all(|(name, text)| sheet.text(row, name) == *text) && sheet.number(row, "packet") == packet as f64)
-        .map_or(f64::NAN, |row| sheet.number(row, column))
+    let mut rows = sheet.of([("scene", scene), ("method", method), ("rays", kind)]);
+    rows.find(|row| sheet.number(row, "packet") == packet as f64).map_or(f64::NAN, |row| sheet.number(row, column))
 }
 
 fn sizes() -> Axis {

@@ -10,6 +10,8 @@ use embree3::{
 use crate::straight::scenes::Triangle;
 use crate::straight::{Hit, Ray};
 
+use super::contest::Trace;
+
 /// What Embree could not do, and why not.
 #[derive(Debug, thiserror::Error)]
 #[error("Embree cannot {task}: {reason}")]
@@ -118,9 +120,6 @@ fn empty_sixteen() -> RayHit16 {
 #[repr(C, align(64))]
 struct Aligned<T>(T);
 
-/// What one run does: traces its rays and writes their hits.
-pub type Trace = Box<dyn FnMut(&mut [Hit])>;
-
 impl Embree {
     pub fn new(triangles: &[Triangle]) -> Result<Embree, EmbreeError> {
         let cannot = |task| move |reason| EmbreeError { task, reason };
@@ -147,7 +146,7 @@ impl Embree {
     }
 
     /// `rays` in the order of [`Way::tile`], and where tiles start. Rays are told to be coherent.
-    pub fn trace(&self, way: Way, rays: Vec<Ray>, starts: Vec<usize>) -> Trace {
+    pub fn trace(&self, way: Way, rays: Vec<Ray>, starts: Vec<usize>) -> Trace<'static> {
         match way {
             Way::Single => self.single(rays, true),
             Way::Eight => self.eight(rays),
@@ -158,7 +157,7 @@ impl Embree {
     }
 
     /// Ray by ray.
-    pub fn single(&self, rays: Vec<Ray>, coherent: bool) -> Trace {
+    pub fn single(&self, rays: Vec<Ray>, coherent: bool) -> Trace<'static> {
         let (scene, empty) = (self.scene.clone(), empty_one());
         Box::new(move |hits| {
             let mut context = if coherent { IntersectContext::coherent() } else { IntersectContext::incoherent() };
@@ -170,16 +169,18 @@ impl Embree {
         })
     }
 
-    /// Ray by ray, whether anything is met; says how many do.
-    pub fn occluded(&self, rays: Vec<Ray>) -> Box<dyn FnMut() -> usize> {
+    /// Ray by ray, whether anything is met.
+    pub fn any(&self, rays: Vec<Ray>) -> Trace<'static> {
         let (scene, empty) = (self.scene.clone(), empty_one());
-        Box::new(move || {
+        Box::new(move |hits| {
             let mut context = IntersectContext::incoherent();
-            rays.iter().filter(|ray| scene.occluded(&mut context, &mut one(&empty, ray).ray)).count()
+            for (ray, hit) in rays.iter().zip(hits) {
+                *hit = if scene.occluded(&mut context, &mut one(&empty, ray).ray) { Hit::SOME } else { Hit::MISS };
+            }
         })
     }
 
-    fn eight(&self, rays: Vec<Ray>) -> Trace {
+    fn eight(&self, rays: Vec<Ray>) -> Trace<'static> {
         let scene = self.scene.clone();
         let empty = RayHit8 { ray: Ray8 { tfar: [-1.0; 8], ..Ray8::empty() }, hit: Hit8::new() };
         Box::new(move |hits| {
@@ -196,7 +197,7 @@ impl Embree {
         })
     }
 
-    fn sixteen(&self, rays: Vec<Ray>) -> Trace {
+    fn sixteen(&self, rays: Vec<Ray>) -> Trace<'static> {
         let (scene, empty) = (self.scene.clone(), empty_sixteen());
         Box::new(move |hits| {
             let mut context = IntersectContext::coherent();
@@ -212,7 +213,7 @@ impl Embree {
         })
     }
 
-    fn stream(&self, rays: Vec<Ray>, starts: Vec<usize>) -> Trace {
+    fn stream(&self, rays: Vec<Ray>, starts: Vec<usize>) -> Trace<'static> {
         let (scene, empty) = (self.scene.clone(), empty_one());
         let mut stream = Vec::new();
         Box::new(move |hits| {
@@ -228,7 +229,7 @@ impl Embree {
         })
     }
 
-    fn stream_of_sixteen(&self, rays: Vec<Ray>, starts: Vec<usize>) -> Trace {
+    fn stream_of_sixteen(&self, rays: Vec<Ray>, starts: Vec<usize>) -> Trace<'static> {
         let (scene, empty) = (self.scene.clone(), empty_sixteen());
         let mut stream = Vec::new();
         Box::new(move |hits| {

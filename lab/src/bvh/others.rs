@@ -1,9 +1,5 @@
 //! The crates that stand beside ours: obvhs and bvh, each with its own tree and its own triangle test.
 
-use std::sync::mpsc;
-use std::thread;
-use std::time::{Duration, Instant};
-
 use bvh::aabb::{Aabb, Bounded};
 use bvh::bounding_hierarchy::BHShape;
 use obvhs::BvhBuildParams;
@@ -12,50 +8,6 @@ use obvhs::ray::RayHit;
 
 use crate::straight::scenes::Triangle;
 use crate::straight::{Hit, Ray};
-
-/// How long another's tree may take to build, and then its single rays for one picture.
-const LONGEST: Duration = Duration::from_secs(30);
-
-/// How many rays tell how long all take.
-const TRIED: usize = 64;
-
-/// What `build` makes of the triangles; None, and a sentence, where that takes too long. It cannot be stopped: it goes on beside what is
-/// measured then.
-pub fn within<T: Send + 'static>(
-    scene: &str,
-    name: &str,
-    triangles: &[Triangle],
-    build: impl FnOnce(&[Triangle]) -> T + Send + 'static,
-) -> Option<T> {
-    let (done, built) = mpsc::channel();
-    let own = triangles.to_vec();
-    // Nobody may be waiting any more.
-    thread::spawn(move || done.send(build(&own)));
-    let built = built.recv_timeout(LONGEST).ok();
-    if built.is_none() {
-        eprintln!("{scene}: {name} is left out: its tree is not built after {} s", LONGEST.as_secs());
-    }
-    built
-}
-
-/// Whether all these rays take no longer than they may, by some of them; says where not.
-pub fn bearable(scene: &str, name: &str, rays: &[Ray], trace: impl Fn(&Ray) -> Hit) -> bool {
-    let started = Instant::now();
-    let mut tried = 0;
-    for ray in rays.iter().step_by(rays.len().div_ceil(TRIED).max(1)) {
-        std::hint::black_box(trace(ray));
-        tried += 1;
-        if started.elapsed() > LONGEST {
-            break;
-        }
-    }
-    let all = started.elapsed().as_secs_f64() * rays.len() as f64 / f64::from(tried.max(1));
-    let bearable = all <= LONGEST.as_secs_f64();
-    if !bearable {
-        eprintln!("{scene}: {name} is left out: its {} rays would take {all:.0} s, and may take {}", rays.len(), LONGEST.as_secs());
-    }
-    bearable
-}
 
 /// obvhs: its tree of two at its slowest, best setting, which was the fastest of its trees for these rays.
 pub struct Obvhs {
@@ -84,10 +36,10 @@ impl Obvhs {
         }
     }
 
-    /// Whether anything is hit.
-    pub fn occluded(&self, ray: &Ray) -> bool {
+    /// Some hit before the ray's end, where there is one.
+    pub fn any(&self, ray: &Ray) -> Hit {
         let theirs = obvhs::ray::Ray::new(ray.origin.into(), ray.direction.into(), 0.0, ray.until);
-        !self.tree.ray_traverse_miss(theirs, |ray, id| self.triangles[id].intersect(ray))
+        if self.tree.ray_traverse_miss(theirs, |ray, id| self.triangles[id].intersect(ray)) { Hit::MISS } else { Hit::SOME }
     }
 }
 

@@ -14,7 +14,7 @@ use clap::Args;
 pub use error::ChartError;
 pub use provenance::Provenance;
 pub use sheet::{Sheet, SheetError};
-pub use timing::{Timing, interleaved, interleaved_by, quantile, thread_time, times_the_first};
+pub use timing::{Timing, interleaved, interleaved_by, mean, quantile, range, thread_time, times_the_first};
 
 /// Where charts go unless said otherwise.
 pub const DEFAULT_FOLDER: &str = "out/charts";

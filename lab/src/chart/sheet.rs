@@ -1,5 +1,6 @@
 //! Numbers of a chart as CSV, with what they were measured on in the lines before the header.
 
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use super::Provenance;
@@ -62,6 +63,16 @@ impl Sheet {
     /// Adds a row.
     pub fn push<S: ToString>(&mut self, cells: impl IntoIterator<Item = S>) {
         self.rows.push(cells.into_iter().map(|cell| cell.to_string()).collect());
+    }
+
+    /// Adds a row; `|` parts its cells.
+    pub fn line(&mut self, cells: impl Display) {
+        self.push(cells.to_string().split('|'));
+    }
+
+    /// The rows with these texts in these columns.
+    pub fn of<'a, const N: usize>(&'a self, wanted: [(&'a str, &'a str); N]) -> impl Iterator<Item = &'a Vec<String>> + Clone {
+        self.rows.iter().filter(move |row| wanted.iter().all(|(name, text)| self.text(row, name) == *text))
     }
 
     /// The text of a note.

@@ -35,6 +35,17 @@ pub fn quantile(values: impl IntoIterator<Item = f64>, q: f64) -> f64 {
     if share > 0.0 { sorted[below] + share * (sorted[below + 1] - sorted[below]) } else { sorted[below] }
 }
 
+/// The mean; 0 of none.
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
+/// The least and the greatest of those that are finite; [∞, 0] of none.
+pub fn range(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let finite = values.into_iter().filter(|value| value.is_finite());
+    finite.fold([f64::INFINITY, 0.0], |[least, most], value| [least.min(value), most.max(value)])
+}
+
 /// Times every contestant `rounds` times, one after another in each round, so that whatever else the machine does falls on all of
 /// them alike; one more round before is thrown away. Each runs on the calling thread.
 pub fn interleaved(contestants: &mut [&mut dyn FnMut()], rounds: usize) -> Vec<Timing> {

@@ -5,7 +5,7 @@ use lensrunner::render::quality::ladder::ladder;
 use lensrunner::render::quality::prices::{Prices, SceneClass};
 use rand::RngExt;
 
-use super::moments::{begin, case, scenes};
+use super::moments::{Case, begin, case, scenes};
 use super::{DialRequest, Keep, empty};
 use crate::chart::{ChartError, Sheet};
 
@@ -30,20 +30,11 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
         eprintln!("{}/{}: {} at T = {}, rung {}", number + 1, request.moments, case.scene, case.at, place + 1);
         let mut shown = bench.show(&case)?;
         let asked = shown.finest;
-        let finest = bench.take(&mut shown, &asked)?;
-        bench.warm(&mut shown)?;
-        let taken = bench.take(&mut shown, &turned(&asked, &rung.steps))?;
-        sheet.push([
-            class.name().to_owned(),
-            case.scene.clone(),
-            case.at.to_string(),
-            (place + 1).to_string(),
-            rung.steps.map(|step| step.to_string()).join(" "),
-            format!("{:.5}", rung.error),
-            format!("{:.5}", bench.error(&finest, &taken)),
-            format!("{:.4}", rung.time),
-            format!("{:.4}", taken.milliseconds / bench.time(&mut shown, &asked)?),
-        ]);
+        let finest = bench.finest(&mut shown, &asked)?;
+        let [error, time, beside] = bench.beside(&mut shown, &finest, &asked, &turned(&asked, &rung.steps))?;
+        let steps = rung.steps.map(|step| step.to_string()).join(" ");
+        let (class, Case { scene, at, .. }, [told, share]) = (class.name(), &case, [rung.error, rung.time]);
+        sheet.line(format_args!("{class}|{scene}|{at}|{}|{steps}|{told:.5}|{error:.5}|{share:.4}|{:.4}", place + 1, time / beside));
         keep(&sheet)?;
     }
     Ok(sheet)

@@ -53,22 +53,12 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
             let mut shown = bench.show(&case)?;
             let asked = shown.finest;
             let whole = everything(&asked);
-            let finest = bench.take(&mut shown, &whole)?;
-            bench.warm(&mut shown)?;
+            let finest = bench.finest(&mut shown, &whole)?;
             for level in LEVELS {
                 let rung = rung_of(level, &rungs);
-                let taken = bench.take(&mut shown, &turned(&asked, &rungs[rung].steps))?;
-                let beside = bench.time(&mut shown, &whole)?;
-                sheet.push([
-                    class.name().to_owned(),
-                    scene.to_owned(),
-                    case.at.to_string(),
-                    level.to_owned(),
-                    (rung + 1).to_string(),
-                    format!("{:.5}", bench.error(&finest, &taken)),
-                    format!("{:.2}", taken.milliseconds),
-                    format!("{beside:.2}"),
-                ]);
+                let [error, time, beside] = bench.beside(&mut shown, &finest, &whole, &turned(&asked, &rungs[rung].steps))?;
+                let (class, at, rung) = (class.name(), case.at, rung + 1);
+                sheet.line(format_args!("{class}|{scene}|{at}|{level}|{rung}|{error:.5}|{time:.2}|{beside:.2}"));
             }
             keep(&sheet)?;
         }
@@ -78,8 +68,7 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
 
 /// Mean FLIP of a level and its share of the time of everything, over all moments of a scene.
 pub fn level_of(sheet: &Sheet, scene: &str, level: &str) -> Option<[f64; 2]> {
-    let is_it = |row: &&Vec<String>| sheet.text(row, "scene") == scene && sheet.text(row, "level") == level;
-    let rows: Vec<_> = sheet.rows.iter().filter(is_it).collect();
+    let rows: Vec<_> = sheet.of([("scene", scene), ("level", level)]).collect();
     let sum = |column| rows.iter().map(|row| sheet.number(row, column)).sum::<f64>();
     (!rows.is_empty()).then(|| [sum("FLIP") / rows.len() as f64, sum("ms") / sum("everything, ms")])
 }

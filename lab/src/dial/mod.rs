@@ -63,24 +63,24 @@ impl DialRequest {
 
 /// Measures (or reads) what is asked for, says what came out, and draws; returns the files written.
 pub fn run(request: &DialRequest) -> Result<Vec<PathBuf>, ChartError> {
+    type Measure = fn(&DialRequest, Keep) -> Result<Sheet, ChartError>;
     let output = &request.output;
+    let sheet = |name: &str, measure: Measure| output.growing_sheet(name, |keep| measure(request, keep));
     if request.levels {
-        let sheet = output.growing_sheet("dial-levels", |keep| levels::measure(request, keep))?;
+        let sheet = sheet("dial-levels", levels::measure)?;
         say(levels::verdict(&sheet));
         return Ok(draw::draw_levels(&sheet, output)?.to_vec());
     }
     if request.moving {
-        let sheet = output.growing_sheet("dial-moving", |keep| moving::measure(request, keep))?;
-        say(moving::verdict(&sheet));
+        say(moving::verdict(&sheet("dial-moving", moving::measure)?));
         return Ok(vec![output.csv("dial-moving")]);
     }
     if request.check {
-        let sheet = output.growing_sheet("dial-check", |keep| check::measure(request, keep))?;
+        let sheet = sheet("dial-check", check::measure)?;
         say(check::verdict(&sheet));
         return Ok(draw::draw(Prices::shipped(), &sheet, output)?.to_vec());
     }
-    let sheet = output.growing_sheet("dial", |keep| prices::measure(request, keep))?;
-    let file = output.csv("quality");
+    let (sheet, file) = (sheet("dial", prices::measure)?, output.csv("quality"));
     std::fs::write(&file, prices::table(&sheet)?).map_err(|error| ChartError::Write(file.clone(), error.to_string()))?;
     Ok(vec![file])
 }

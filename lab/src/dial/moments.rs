@@ -29,7 +29,7 @@ const NEAREST: f64 = 1.2;
 /// Frames of which the quickest is the time of one.
 const TIMED: usize = 4;
 /// Timings before those that count.
-const WARM: usize = 3;
+const WARM: usize = 4;
 /// Scenes drawn before a class is given up.
 const TRIES: usize = 200;
 
@@ -108,15 +108,12 @@ pub struct Shown {
     pub finest: Settings,
 }
 
-/// A finished picture and the time of a frame.
+/// A finished picture.
 pub struct Taken {
     /// sRGB-linear light as shown, 0 to 1.
     pub light: Vec<[f32; 3]>,
     /// The same as it is stored: sRGB, four bytes a pixel.
     pub bytes: Vec<u8>,
-    /// Milliseconds a frame: the instances, the passes, until all is done. On a software driver of the processor, all threads together.
-    /// NaN where no time was taken.
-    pub milliseconds: f64,
 }
 
 impl Bench {
@@ -141,10 +138,11 @@ impl Bench {
         Ok(Shown { stage, moment, camera, finest: Settings { own_ship, engines, ..settings(&self.config) } })
     }
 
-    /// Draws it with these settings, and takes the time.
-    pub fn take(&mut self, shown: &mut Shown, settings: &Settings) -> Result<Taken, ChartError> {
+    /// These settings beside others, whose picture is `finest`: mean FLIP, and milliseconds a frame of both, one after the other, so that what
+    /// else the machine does tells on both alike.
+    pub fn beside(&mut self, shown: &mut Shown, finest: &Taken, others: &Settings, settings: &Settings) -> Result<[f64; 3], ChartError> {
         let taken = self.picture(shown, settings)?;
-        Ok(Taken { milliseconds: self.time(shown, settings)?, ..taken })
+        Ok([self.error(finest, &taken), self.time(shown, settings)?, self.time(shown, others)?])
     }
 
     /// Draws it with these settings.
@@ -152,11 +150,12 @@ impl Bench {
         let frame = shown.stage.frame(shown.camera, self.size, shown.moment.time(), &shown.moment.histories(), None, settings);
         let picture = self.offscreen.renderer.picture(&frame, false)?;
         let light = picture.display.chunks_exact(4).map(|pixel| [0, 1, 2].map(|k| linear(pixel[k]))).collect();
-        Ok(Taken { light, bytes: picture.display, milliseconds: f64::NAN })
+        Ok(Taken { light, bytes: picture.display })
     }
 
-    /// Milliseconds a frame with these settings, as [`Taken::milliseconds`].
-    pub fn time(&mut self, shown: &mut Shown, settings: &Settings) -> Result<f64, ChartError> {
+    /// Milliseconds a frame with these settings: the instances, the passes, until all is done. On a software driver of the processor, all
+    /// threads together.
+    fn time(&mut self, shown: &mut Shown, settings: &Settings) -> Result<f64, ChartError> {
         let mut frame = || shown.stage.frame(shown.camera, self.size, shown.moment.time(), &shown.moment.histories(), None, settings);
         // A software driver works on the processor: its time is not disturbed by other programs.
         let is_software = self.gpu.adapter.device_type == wgpu::DeviceType::Cpu;
@@ -171,10 +170,11 @@ impl Bench {
         Ok(milliseconds)
     }
 
-    /// Draws it until memory and clocks have settled.
-    pub fn warm(&mut self, shown: &mut Shown) -> Result<(), ChartError> {
+    /// The picture with these settings, once memory and clocks have settled.
+    pub fn finest(&mut self, shown: &mut Shown, settings: &Settings) -> Result<Taken, ChartError> {
         let finest = shown.finest;
-        (0..WARM).try_for_each(|_| self.time(shown, &finest).map(|_| ()))
+        (0..WARM).try_for_each(|_| self.time(shown, &finest).map(|_| ()))?;
+        self.picture(shown, settings)
     }
 
     /// Mean FLIP of a picture from the finest.

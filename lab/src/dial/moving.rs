@@ -55,9 +55,7 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
                     let unchanged = bench.picture(&mut shown, &turned(&asked, &rungs[before].steps))?;
                     bench.error(&last, &unchanged)
                 };
-                let numbers = [case.at, (before + 1) as f64, (rung + 1) as f64].map(|number| number.to_string());
-                let errors = [moved, stayed].map(|error| format!("{error:.5}"));
-                sheet.push([scene.to_owned()].into_iter().chain(numbers).chain(errors));
+                sheet.line(format_args!("{scene}|{}|{}|{}|{moved:.5}|{stayed:.5}", case.at, before + 1, rung + 1));
             }
             last = Some(taken);
         }
@@ -69,7 +67,7 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
 /// Of a scene: how many changes there were, mean FLIP between neighbouring frames as a multiple of that with the rung unchanged, over all
 /// frames and over the changes alone.
 pub fn ratios(sheet: &Sheet, scene: &str) -> (usize, [f64; 2]) {
-    let rows = || sheet.rows.iter().filter(|row| sheet.text(row, "scene") == scene);
+    let rows = || sheet.of([("scene", scene)]);
     let is_change = |row: &&Vec<String>| sheet.text(row, "rung") != sheet.text(row, "rung before");
     let ratio = |rows: &mut dyn Iterator<Item = &Vec<String>>| {
         let (moved, stayed) = rows.fold((0.0, 0.0), |(moved, stayed), row| {
@@ -82,7 +80,7 @@ pub fn ratios(sheet: &Sheet, scene: &str) -> (usize, [f64; 2]) {
 
 /// The verdict, in a sentence.
 pub fn verdict(sheet: &Sheet) -> String {
-    let words = SCENES.iter().filter(|scene| sheet.rows.iter().any(|row| sheet.text(row, "scene") == **scene)).map(|scene| {
+    let words = sheet.distinct("scene").into_iter().map(|scene| {
         let (changes, [all, changed]) = ratios(sheet, scene);
         format!("{scene}: {all:.2} times over all frames, {changed:.2} at its {changes} changes")
     });

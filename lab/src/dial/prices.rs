@@ -3,7 +3,7 @@
 use lensrunner::render::quality::knobs::{Knob, turned};
 use lensrunner::render::quality::prices::{HEADER, Prices, SceneClass};
 
-use super::moments::{begin, case, scenes};
+use super::moments::{Case, begin, case, scenes};
 use super::{DialRequest, Keep, empty};
 use crate::chart::{ChartError, Sheet, quantile};
 
@@ -25,26 +25,14 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
             eprintln!("{} {}/{}: {} at T = {}", class.name(), number + 1, request.moments, case.scene, case.at);
             let mut shown = bench.show(&case)?;
             let asked = shown.finest;
-            let finest = bench.take(&mut shown, &asked)?;
-            bench.warm(&mut shown)?;
+            let finest = bench.finest(&mut shown, &asked)?;
             for (k, knob) in Knob::ALL.into_iter().enumerate() {
                 for step in 1..knob.steps() {
                     let mut steps = [0; Knob::ALL.len()];
                     steps[k] = step;
-                    let taken = bench.take(&mut shown, &turned(&asked, &steps))?;
-                    // Beside it, so that what else the machine does tells on both alike.
-                    let beside = bench.time(&mut shown, &asked)?;
-                    let error = bench.error(&finest, &taken);
-                    sheet.push([
-                        class.name().to_owned(),
-                        case.scene.clone(),
-                        case.at.to_string(),
-                        knob.name().to_owned(),
-                        step.to_string(),
-                        format!("{error:.5}"),
-                        format!("{:.2}", taken.milliseconds),
-                        format!("{beside:.2}"),
-                    ]);
+                    let [error, time, beside] = bench.beside(&mut shown, &finest, &asked, &turned(&asked, &steps))?;
+                    let (class, knob, Case { scene, at, .. }) = (class.name(), knob.name(), &case);
+                    sheet.line(format_args!("{class}|{scene}|{at}|{knob}|{step}|{error:.5}|{time:.2}|{beside:.2}"));
                 }
             }
             keep(&sheet)?;
@@ -66,8 +54,8 @@ pub fn table(sheet: &Sheet) -> Result<String, ChartError> {
         for knob in Knob::ALL {
             let (mut dearest, mut quickest) = (0f64, 1f64);
             for step in 1..knob.steps() {
-                let is_it = |row: &&Vec<String>| sheet.text(row, "knob") == knob.name() && sheet.text(row, "step") == step.to_string();
-                let rows = || sheet.rows.iter().filter(is_it).filter(|row| sheet.text(row, "class") == class.name());
+                let number = step.to_string();
+                let rows = || sheet.of([("class", class.name()), ("knob", knob.name()), ("step", &number)]);
                 let error = quantile(rows().map(|row| sheet.number(row, "FLIP")), BOUND);
                 dearest = dearest.max((MARGIN * error).min(1.0));
                 let time = quantile(rows().map(|row| sheet.number(row, "ms") / sheet.number(row, "finest ms")), 0.5);

@@ -82,9 +82,9 @@ fn alone(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -
     for ((contestant, error), [own_times, pass_times, whole]) in contestants.iter().zip(errors).zip(&times) {
         // Round by round, for what else runs on the machine changes from round to round.
         let ratios: Vec<f64> = own_times.iter().zip(&against).map(|(own, reference)| own / reference).collect();
-        let medians = [own_times, pass_times, whole, &ratios].map(|times| format!("{:.3}", quantile(times.iter().copied(), 0.5)));
-        let errors = [format!("{:.2}", error.psnr), format!("{:.4}", error.flip), format!("{:.4}", error.relative)];
-        sheet.push([contestant.name.clone(), contestant.family.to_string()].into_iter().chain(medians).chain(errors));
+        let medians = [own_times, pass_times, whole, &ratios].map(|times| format!("{:.3}", quantile(times.iter().copied(), 0.5))).join("|");
+        let (Contestant { name, family, .. }, PictureError { psnr, flip, relative }) = (contestant, error);
+        sheet.line(format_args!("{name}|{family}|{medians}|{psnr:.2}|{flip:.4}|{relative:.4}"));
     }
     Ok(sheet)
 }

@@ -1,10 +1,10 @@
 //! Table 2: the scripted chase, each way to draw the disk at every place of it, with the error beside each time.
 
-use crate::chart::{ChartError, Sheet, quantile};
+use crate::chart::{ChartError, Sheet, mean, quantile};
 use lensrunner::scene::disk::Gas;
 
 use super::bench::Bench;
-use super::error::{compare, peak};
+use super::error::{PictureError, compare, peak};
 use super::exact::picture;
 use super::request::{Contestant, DISK_PASSES, DiskRequest, View, own};
 use super::script::script;
@@ -59,10 +59,9 @@ pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], bench: &m
         for (&(number, contestant), times) in runners.iter().zip(&times) {
             let shown = bench.frame(Some(number), &alone, Some(request.error_size))?;
             let error = compare(&shown.picture, truth, request.error_size, exposed);
-            let mut cells = vec![contestant.name.clone(), contestant.family.to_string(), step.to_string(), situation.to_owned()];
-            cells.extend(times.iter().map(|times| format!("{:.3}", quantile(times.iter().copied(), 0.5))));
-            cells.extend([format!("{:.2}", error.psnr), format!("{:.4}", error.flip)]);
-            sheet.push(cells);
+            let times: String = times.iter().map(|times| format!("|{:.3}", quantile(times.iter().copied(), 0.5))).collect();
+            let (Contestant { name, family, .. }, PictureError { psnr, flip, .. }) = (contestant, error);
+            sheet.line(format_args!("{name}|{family}|{step}|{situation}{times}|{psnr:.2}|{flip:.4}"));
         }
     }
     Ok(sheet)
@@ -84,28 +83,15 @@ pub(super) fn summary(chase: &Sheet) -> Sheet {
     ]);
     sheet.notes.clone_from(&chase.notes);
     for name in chase.distinct("contestant") {
-        let rows: Vec<&Vec<String>> = chase.rows.iter().filter(|row| chase.text(row, "contestant") == name).collect();
+        let rows: Vec<&Vec<String>> = chase.of([("contestant", name)]).collect();
         let column = |column: &str| -> Vec<f64> { rows.iter().map(|row| chase.number(row, column)).collect() };
         let frames = column("frame_ms");
         let worst = frames.iter().copied().fold(0.0, f64::max);
         let place = rows.iter().find(|row| chase.number(row, "frame_ms") == worst).map_or("", |row| chase.text(row, "situation"));
         let flips = column("flip");
-        sheet.push([
-            name.to_owned(),
-            format!("{:.1}", mean(&frames)),
-            format!("{worst:.1}"),
-            format!("{:.2}", mean(&frames) / worst),
-            place.to_owned(),
-            format!("{:.1}", mean(&column("disk_ms"))),
-            format!("{:.1}", mean(&column("psnr_db"))),
-            format!("{:.4}", mean(&flips)),
-            format!("{:.4}", flips.iter().copied().fold(0.0, f64::max)),
-        ]);
+        let (mean_ms, ratio, most) = (mean(&frames), mean(&frames) / worst, flips.iter().copied().fold(0.0, f64::max));
+        let [disk, psnr, flip] = ["disk_ms", "psnr_db", "flip"].map(|name| mean(&column(name)));
+        sheet.line(format_args!("{name}|{mean_ms:.1}|{worst:.1}|{ratio:.2}|{place}|{disk:.1}|{psnr:.1}|{flip:.4}|{most:.4}"));
     }
     sheet
-}
-
-/// The mean of all values; 0 of none.
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
 }

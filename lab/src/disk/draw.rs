@@ -58,12 +58,7 @@ fn rates(summary: &Sheet) -> Bars {
 fn course(chase: &Sheet) -> Lines {
     let lines = ["polygons 960", "polygons 960 at rest", "sprites 100 000", "arcs 1100", "arcs 4200", "arcs 17000"].map(|name| Line {
         name: name.to_owned(),
-        points: chase
-            .rows
-            .iter()
-            .filter(|row| chase.text(row, "contestant") == name)
-            .map(|row| [chase.number(row, "step"), chase.number(row, "disk_ms")])
-            .collect(),
+        points: chase.of([("contestant", name)]).map(|row| [chase.number(row, "step"), chase.number(row, "disk_ms")]).collect(),
         dots: true,
         ..Line::default()
     });
@@ -88,10 +83,7 @@ fn course(chase: &Sheet) -> Lines {
 
 /// What the reference costs and how far it is off, beside the two other ways.
 fn verdict(alone: &Sheet) -> String {
-    let of = |name: &str, column: &str| {
-        let row = alone.rows.iter().find(|row| alone.text(row, "contestant") == name);
-        row.map_or(f64::NAN, |row| alone.number(row, column))
-    };
+    let of = |name: &str, column: &str| alone.of([("contestant", name)]).next().map_or(f64::NAN, |row| alone.number(row, column));
     let ratio = |name: &str, column: &str| of(REFERENCE, column) / of(name, column);
     format!(
         "4,200 arcs take {:.2} of the time of 960 polygons at {:.2} of their error, and {:.2} of the time of 100,000 sprites at {:.1} times theirs",

@@ -1,6 +1,6 @@
 //! The scripted chase frame by frame, as it is played: how long the adapter works on each frame, and the processor before that.
 
-use crate::chart::{ChartError, Sheet};
+use crate::chart::{ChartError, Sheet, mean};
 use lensrunner::scene::GameConfig;
 
 use super::bench::Bench;
@@ -33,9 +33,8 @@ pub(super) fn flight(request: &DiskRequest, config: &GameConfig, bench: &mut Ben
         let of = |time: f64| if shown.passes.is_empty() { f64::NAN } else { time };
         let all = of(shown.passes.iter().map(|(_, time)| time).sum());
         let disk = of(DISK_PASSES.iter().map(|label| shown.pass(label)).sum());
-        let times = [all, disk, shown.before].map(|time| format!("{time:.3}"));
         let fragments = fragments.map_or("NaN".to_owned(), |count| count.to_string());
-        sheet.push([frame.to_string(), situation.to_owned()].into_iter().chain(times).chain([fragments]));
+        sheet.line(format_args!("{frame}|{situation}|{all:.3}|{disk:.3}|{:.3}|{fragments}", shown.before));
     }
     Ok(sheet)
 }
@@ -47,9 +46,8 @@ pub fn summary(flight: &Sheet) -> Sheet {
     for column in ["passes_ms", "disk_ms", "before_submission_ms", "disk_fragments"] {
         let mut times: Vec<f64> = flight.rows.iter().map(|row| flight.number(row, column)).collect();
         times.sort_by(f64::total_cmp);
-        let mean = times.iter().sum::<f64>() / times.len().max(1) as f64;
-        let values = [mean, under(&times, 0.99), under(&times, 0.999), under(&times, 1.0)];
-        sheet.push([column.to_owned()].into_iter().chain(values.map(|value| format!("{value:.3}"))));
+        let (mean, [most, nearly, worst]) = (mean(&times), [0.99, 0.999, 1.0].map(|share| under(&times, share)));
+        sheet.line(format_args!("{column}|{mean:.3}|{most:.3}|{nearly:.3}|{worst:.3}"));
     }
     sheet
 }

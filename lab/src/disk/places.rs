@@ -9,7 +9,7 @@ use crate::chart::{ChartError, Sheet};
 use lensrunner::scene::disk::Gas;
 
 use super::bench::Bench;
-use super::error::{compare, peak};
+use super::error::{PictureError, compare, peak};
 use super::exact::picture;
 use super::request::{Contestant, DiskRequest, TIME, View, eye};
 
@@ -47,14 +47,8 @@ pub fn errors_by_place(request: &DiskRequest, contestants: &[Contestant], bench:
         for (number, contestant) in contestants.iter().enumerate().filter(|(_, contestant)| contestant.family < 2) {
             let shown = bench.frame(Some(number), &View { eye, time: TIME, sky: false, counted: false }, Some(request.error_size))?;
             let error = compare(&shown.picture, &truth, request.error_size, peak(&truth));
-            sheet.push([
-                contestant.name.clone(),
-                contestant.family.to_string(),
-                place.clone(),
-                format!("{:.2}", error.psnr),
-                format!("{:.4}", error.flip),
-                format!("{:.4}", error.relative),
-            ]);
+            let (Contestant { name, family, .. }, PictureError { psnr, flip, relative }) = (contestant, error);
+            sheet.line(format_args!("{name}|{family}|{place}|{psnr:.2}|{flip:.4}|{relative:.4}"));
         }
     }
     Ok(sheet)

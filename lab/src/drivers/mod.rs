@@ -75,8 +75,8 @@ pub fn run(request: &DriversRequest) -> Result<Vec<PathBuf>, ChartError> {
         let second = if pictures { drawn(&manifest, scene)? } else { shot(scene, Some(&manifest))? };
         let pair = [shot(scene, None)?, second];
         let found = difference(&pair[0], &pair[1]);
-        let counts = [found.pixels, found.differ, found.elsewhere, found.greatest.into()].map(|count| count.to_string());
-        sheet.push([scene.to_owned()].into_iter().chain(counts).chain([format!("{:.5}", found.flip)]));
+        let Difference { pixels, differ, elsewhere, greatest, flip, .. } = &found;
+        sheet.line(format_args!("{scene}|{pixels}|{differ}|{elsewhere}|{greatest}|{flip:.5}"));
         all.push((found, pair));
     }
     let csv = request.output.join(format!("{stem}.csv"));

@@ -2,7 +2,7 @@
 
 use super::measure::{ENERGY_LOST, LOST};
 use super::methods::Method;
-use crate::chart::{Provenance, Sheet};
+use crate::chart::{Provenance, Sheet, range};
 use crate::plot::{Axis, Figure, Guide, Line, Lines, Panel, tick_text};
 
 /// What each flight is, for its panels.
@@ -21,7 +21,7 @@ const GOOD: f64 = 1e-6;
 
 /// A row for each flight: E, L and phase against evaluations, phase against time.
 pub fn draw(sheet: &Sheet) -> Figure {
-    let flights: Vec<_> = FLIGHTS.iter().filter(|(name, _)| sheet.rows.iter().any(|row| sheet.text(row, "flight") == *name)).collect();
+    let flights: Vec<_> = FLIGHTS.iter().filter(|(name, _)| sheet.of([("flight", name)]).next().is_some()).collect();
     let panels = flights.iter().flat_map(|(name, title)| {
         [
             panel(sheet, name, title, "evaluations", "energy"),
@@ -48,8 +48,7 @@ fn panel(sheet: &Sheet, flight: &str, title: &str, cost: &str, error: &str) -> P
     let line = |method: Method| {
         let name = method.name();
         let of_it = |failed: &str| {
-            let rows = sheet.rows.iter().filter(|row| sheet.text(row, "flight") == flight && sheet.text(row, "method") == name);
-            let rows = rows.filter(|row| sheet.text(row, "failed") == failed);
+            let rows = sheet.of([("flight", flight), ("method", name), ("failed", failed)]);
             let mut points: Vec<[f64; 2]> =
                 rows.map(|row| [sheet.number(row, cost), sheet.number(row, error).clamp(LEAST, WORST)]).collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -86,17 +85,15 @@ const WORST: f64 = 10.0;
 /// What each needs for a good phase beside DOP853 with error control, and how far the game is off.
 fn verdict(sheet: &Sheet) -> String {
     let cost = |flight: &str, method: Method| {
-        let name = method.name();
-        let rows = sheet.rows.iter().filter(|row| sheet.text(row, "flight") == flight && sheet.text(row, "method") == name);
-        let good = rows.filter(|row| sheet.number(row, "phase") <= GOOD && sheet.text(row, "failed") == "0");
+        let rows = sheet.of([("flight", flight), ("method", method.name()), ("failed", "0")]);
+        let good = rows.filter(|row| sheet.number(row, "phase") <= GOOD);
         good.map(|row| sheet.number(row, "evaluations")).fold(f64::NAN, f64::min)
     };
     let range = |method: Method| {
-        let ratios = FLIGHTS.iter().map(|(flight, _)| cost(flight, method) / cost(flight, Method::Dop853)).filter(|r| r.is_finite());
-        let [least, most] = ratios.fold([f64::INFINITY, 0.0], |[least, most], ratio| [least.min(ratio), most.max(ratio)]);
+        let [least, most] = range(FLIGHTS.iter().map(|(flight, _)| cost(flight, method) / cost(flight, Method::Dop853)));
         format!("{} {least:.1} to {most:.1}", method.name())
     };
-    let own = sheet.rows.iter().filter(|row| sheet.text(row, "own") == "1").map(|row| sheet.number(row, "phase"));
+    let own = sheet.of([("own", "1")]).map(|row| sheet.number(row, "phase"));
     let others = [Method::Dopri5, Method::Rk4, Method::Split4, Method::Game].map(range).join(", ");
     format!(
         "A phase to {} rad takes so many times the evaluations of DOP853 with error control: {others}; at its own step the game is off by at \

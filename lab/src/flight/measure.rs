@@ -113,20 +113,13 @@ pub fn measure(request: &FlightRequest) -> Result<Sheet, ChartError> {
                 Effort::Steps(steps) => format!("{:.6}", case.segment() / f64::from(*steps)),
                 Effort::Tolerance(tolerance) => format!("{tolerance:e}"),
             };
-            sheet.push([
-                case.name.to_owned(),
-                method.name().to_owned(),
-                told,
-                u8::from(*method == Method::Game && *effort == own(&case)).to_string(),
-                format!("{:.6}", case.span / flight.steps.max(1) as f64),
-                flight.evaluations.to_string(),
-                format!("{:.4}", 1e3 * time.median),
-                format!("{:.4}", time.median / game),
-                format!("{:.3e}", errors.energy),
-                format!("{:.3e}", errors.momentum),
-                format!("{:.3e}", errors.phase),
-                u8::from(errors.failed()).to_string(),
-            ]);
+            let [own, failed] = [*method == Method::Game && *effort == own(&case), errors.failed()].map(u8::from);
+            let (step, [time, over]) = (case.span / flight.steps.max(1) as f64, [1e3 * time.median, time.median / game]);
+            let Errors { energy, momentum, phase } = errors;
+            let (name, method, evaluations) = (case.name, method.name(), flight.evaluations);
+            sheet.line(format_args!(
+                "{name}|{method}|{told}|{own}|{step:.6}|{evaluations}|{time:.4}|{over:.4}|{energy:.3e}|{momentum:.3e}|{phase:.3e}|{failed}"
+            ));
         }
     }
     Ok(sheet)
@@ -139,10 +132,8 @@ pub fn limits(sheet: &Sheet) -> Sheet {
     let mut seen: Vec<[&str; 2]> = sheet.rows.iter().map(|row| [sheet.text(row, "flight"), sheet.text(row, "method")]).collect();
     seen.dedup();
     for [flight, method] in seen {
-        let rows = sheet.rows.iter().filter(|row| sheet.text(row, "flight") == flight && sheet.text(row, "method") == method);
-        let rows: Vec<_> = rows.filter(|row| sheet.text(row, "own") == "0").collect();
         // From the finest on: the first that fails.
-        let mut from_finest = rows;
+        let mut from_finest: Vec<_> = sheet.of([("flight", flight), ("method", method), ("own", "0")]).collect();
         from_finest.sort_by(|a, b| sheet.number(a, "effort").total_cmp(&sheet.number(b, "effort")));
         let place = from_finest.iter().position(|row| sheet.text(row, "failed") == "1");
         let cells = |row: Option<&&Vec<String>>| match row {

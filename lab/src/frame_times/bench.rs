@@ -11,7 +11,7 @@ use lensrunner::render::stage::{Stage, settings};
 use lensrunner::render::{Gpu, Renderer};
 use lensrunner::scene::{GameConfig, Scene};
 
-use super::parts::{Part, Whose};
+use super::parts::{PASS, PRESENTING, PROCESSOR, Part};
 use super::times::{FrameTimes, FrameTimesRequest};
 use crate::offscreen::processor_time;
 
@@ -135,15 +135,14 @@ impl Stand<'_> {
             self.stage.ration_aurora(self.renderer.timing().latest());
         }
         let Some(times) = times else { return Ok(()) };
-        drawn.work.splice(0..0, [(Whose::Processor, "simulation", simulation), (Whose::Processor, "instances and aurora", placing)]);
+        drawn.work.splice(0..0, [(PROCESSOR, "simulation", simulation), (PROCESSOR, "instances and aurora", placing)]);
         drawn.whole += simulation + placing;
         let bare = FrameInput { placed: Vec::new(), aurora: None, ..frame.clone() };
         let alone = self.draw(&bare)?;
         self.renderer.timing().set_steps(&self.bench.gpu, true);
         self.draw(&frame)?;
         for (name, time) in self.renderer.timing().stepped() {
-            let whose = if name == PRESENTING { Whose::Presenting } else { Whose::Pass };
-            drawn.work.push((whose, name, f64::from(time)));
+            drawn.work.push((if name == COPY { PRESENTING } else { PASS }, name, f64::from(time)));
         }
         self.renderer.timing().set_steps(&self.bench.gpu, false);
         times.parts.add(drawn.whole, &drawn.work);
@@ -171,13 +170,13 @@ impl Stand<'_> {
             },
             self.picture.size(),
         );
-        self.renderer.timing().step(&mut encoder, PRESENTING);
+        self.renderer.timing().step(&mut encoder, COPY);
         queue.submit([encoder.finish()]);
         let submitted = milliseconds(submitting);
         device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
         let whole = milliseconds(begin);
-        let work = self.renderer.timing().work().iter().map(|&(name, time)| (Whose::Processor, name, f64::from(time)));
-        Ok(Drawn { whole, work: work.chain([(Whose::Processor, "submission", submitted)]).collect() })
+        let work = self.renderer.timing().work().iter().map(|&(name, time)| (PROCESSOR, name, f64::from(time)));
+        Ok(Drawn { whole, work: work.chain([(PROCESSOR, "submission", submitted)]).collect() })
     }
 
     /// What is known once all frames are drawn.
@@ -191,7 +190,7 @@ impl Stand<'_> {
 }
 
 /// The name of the copy of the picture among the steps.
-const PRESENTING: &str = "copy of the picture";
+const COPY: &str = "copy of the picture";
 
 /// Bytes of a row of the copy.
 fn row(size: [u32; 2]) -> u32 {

@@ -57,7 +57,7 @@ pub fn run(request: &FrameTimesRequest) -> Result<Vec<PathBuf>, ChartError> {
         let mut flight = Sheet::new(&["time", "frame_ms", "without_bodies_and_aurora_ms"]);
         flight.notes.clone_from(&sheet.notes);
         for ((time, whole), alone) in times.moments.iter().zip(times.parts.frames()).zip(&times.alone) {
-            flight.push([format!("{time:.5}"), format!("{whole:.3}"), format!("{alone:.3}")]);
+            flight.line(format_args!("{time:.5}|{whole:.3}|{alone:.3}"));
         }
         paths.push(request.output.join("frame-flight.csv"));
         flight.save(&paths[1])?;

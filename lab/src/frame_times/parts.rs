@@ -1,38 +1,22 @@
 //! The parts of frames, added up: which takes how long, and what is in none of them.
 
-use std::fmt;
+use crate::chart::{mean, quantile};
 
-use crate::chart::quantile;
-
-/// Who does a part of a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Whose {
-    /// The processor, before it hands the frame over.
-    Processor,
-    /// A pass, which the processor waits for.
-    Pass,
-    /// The copy of the picture to where the processor can show it.
-    Presenting,
-}
-
-impl fmt::Display for Whose {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Whose::Processor => "processor",
-            Whose::Pass => "pass",
-            Whose::Presenting => "presenting",
-        })
-    }
-}
+/// A part of one frame that the processor does before it hands the frame over,
+pub const PROCESSOR: &str = "processor";
+/// a pass, which the processor waits for,
+pub const PASS: &str = "pass";
+/// and the copy of the picture to where the processor can show it.
+pub const PRESENTING: &str = "presenting";
 
 /// A part of one frame: whose, its name, milliseconds.
-pub type Part = (Whose, &'static str, f64);
+pub type Part = (&'static str, &'static str, f64);
 
 /// Times of whole frames and of their parts, in milliseconds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Parts {
     whole: Vec<f64>,
-    parts: Vec<(Whose, &'static str, Vec<f64>)>,
+    parts: Vec<(&'static str, &'static str, Vec<f64>)>,
 }
 
 /// Mean, median and worst of some times, in milliseconds.
@@ -50,7 +34,7 @@ impl Spread {
     /// Of these times; zero of none.
     pub fn of(times: &[f64]) -> Spread {
         Spread {
-            mean: times.iter().sum::<f64>() / times.len().max(1) as f64,
+            mean: mean(times),
             median: if times.is_empty() { 0.0 } else { quantile(times.iter().copied(), 0.5) },
             worst: times.iter().copied().fold(0.0, f64::max),
         }
@@ -85,7 +69,7 @@ impl Parts {
     }
 
     /// Each part, in the order in which they first came.
-    pub fn spreads(&self) -> impl Iterator<Item = (Whose, &'static str, Spread)> + '_ {
+    pub fn spreads(&self) -> impl Iterator<Item = (&'static str, &'static str, Spread)> + '_ {
         self.parts.iter().map(|(whose, name, times)| (*whose, *name, Spread::of(times)))
     }
 
@@ -108,9 +92,9 @@ mod tests {
     #[test]
     fn parts_and_what_is_in_none_make_the_whole() {
         let mut parts = Parts::default();
-        parts.add(10.0, &[(Whose::Processor, "encoding", 1.0), (Whose::Pass, "bloom", 2.0), (Whose::Pass, "bloom", 3.0)]);
+        parts.add(10.0, &[(PROCESSOR, "encoding", 1.0), (PASS, "bloom", 2.0), (PASS, "bloom", 3.0)]);
         // A pass that comes later was not there before; one that is gone takes no time.
-        parts.add(20.0, &[(Whose::Processor, "encoding", 3.0), (Whose::Pass, "thin", 12.0)]);
+        parts.add(20.0, &[(PROCESSOR, "encoding", 3.0), (PASS, "thin", 12.0)]);
         let found: Vec<_> = parts.spreads().map(|(_, name, spread)| (name, spread.mean, spread.worst)).collect();
         assert_eq!(found, [("encoding", 2.0, 3.0), ("bloom", 2.5, 5.0), ("thin", 6.0, 12.0)]);
         assert_eq!(parts.whole(), Spread { mean: 15.0, median: 15.0, worst: 20.0 });

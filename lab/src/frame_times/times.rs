@@ -83,16 +83,15 @@ impl FrameTimes {
     pub(super) fn write(&self, sheet: &mut Sheet) {
         let whole = self.parts.whole().mean;
         let mut row = |kind: &str, part: &str, spread: Spread| {
-            let times = [spread.mean, spread.median, spread.worst].map(|time| format!("{time:.3}"));
-            let cells = [self.scene.clone(), kind.to_owned(), part.to_owned()];
-            sheet.push(cells.into_iter().chain(times).chain([format!("{:.4}", spread.mean / whole)]));
+            let (scene, Spread { mean, median, worst }) = (&self.scene, spread);
+            sheet.line(format_args!("{scene}|{kind}|{part}|{mean:.3}|{median:.3}|{worst:.3}|{:.4}", mean / whole));
         };
         row("whole", "first frame", Spread::of(&[self.first]));
         row("whole", "frame", self.parts.whole());
         row("whole", "without bodies and aurora", Spread::of(&self.alone));
         row("whole", "processor time of all threads", Spread::of(&self.processor));
         for (whose, name, spread) in self.parts.spreads() {
-            row(&whose.to_string(), name, spread);
+            row(whose, name, spread);
         }
         let rest = self.parts.in_no_part();
         row("rest", "in no pass", Spread { mean: rest, median: f64::NAN, worst: f64::NAN });
@@ -108,7 +107,7 @@ impl fmt::Display for FrameTimes {
         }
         write!(f, "; {:.2} times as long as without bodies and aurora)", self.ratio())?;
         for (whose, label, Spread { mean, median, worst }) in self.parts.spreads() {
-            write!(f, "\n  {:<10} {label:<20} mean {mean:7.2} ms, median {median:7.2}, worst {worst:7.2}", whose.to_string())?;
+            write!(f, "\n  {whose:<10} {label:<20} mean {mean:7.2} ms, median {median:7.2}, worst {worst:7.2}")?;
             if let Some((_, count)) = self.fragments.iter().find(|(known, _)| *known == label) {
                 write!(f, ", {count} fragments")?;
             }

@@ -10,7 +10,7 @@ use std::time::Instant;
 use clap::Args;
 use glam::DVec3;
 
-use crate::chart::{ChartError, Output, Provenance, Sheet, quantile};
+use crate::chart::{ChartError, Output, Provenance, Sheet, mean, quantile};
 use crate::compare::flight::hands::PACES;
 use crate::plot::{Axis, Figure, Guide, Panel, Point, Scatter};
 use lensrunner::argument::whole;
@@ -95,19 +95,17 @@ pub fn measure(moments: usize) -> Result<Sheet, ChartError> {
                 }));
             }
         }
-        sheet.push(row("smooth", pace, smooth));
+        sheet.line(row("smooth", pace, smooth));
         for (intervals, measured) in nodes {
-            sheet.push(row(&format!("nodes {intervals:.0}"), pace, measured));
+            sheet.line(row(&format!("nodes {intervals:.0}"), pace, measured));
         }
     }
     Ok(sheet)
 }
 
-fn row(way: &str, pace: f64, Measured { errors, seconds }: Measured) -> [String; 6] {
-    let at = |share: f64| quantile(errors.iter().copied(), share);
-    let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-    let micro = 1e6 * quantile(seconds, 0.5);
-    [way.to_owned(), pace.to_string(), format!("{mean:.5}"), format!("{:.4}", at(0.99)), format!("{:.4}", at(1.0)), format!("{micro:.2}")]
+fn row(way: &str, pace: f64, Measured { errors, seconds }: Measured) -> String {
+    let [most, worst] = [0.99, 1.0].map(|share| quantile(errors.iter().copied(), share));
+    format!("{way}|{pace}|{:.5}|{most:.4}|{worst:.4}|{:.2}", mean(&errors), 1e6 * quantile(seconds, 0.5))
 }
 
 /// What a pixel spans at the ship, in r_s.

@@ -1,7 +1,7 @@
 //! The page: methods by places, green or red, a number each.
 
 use super::PARTS;
-use super::held::HELD;
+use super::held::Held;
 use crate::chart::{Provenance, Sheet};
 
 const HEAD: &str = "# Where methods fail
@@ -50,7 +50,6 @@ fn number(value: f64) -> String {
     match value {
         v if v.is_nan() => "–".into(),
         0.0 => "0".into(),
-        v if v >= 100.0 => format!("{v:.0}"),
         v if v >= 10.0 => format!("{v:.0}"),
         v if v >= 0.01 => format!("{v:.2}"),
         v => format!("{v:.0e}"),
@@ -58,10 +57,10 @@ fn number(value: f64) -> String {
 }
 
 /// The page in Markdown.
-pub fn page(sheet: &Sheet) -> String {
+pub fn page(sheet: &Sheet, held: &[Held]) -> String {
     let mut text = HEAD.to_owned();
     for (part, about) in PARTS.into_iter().zip(ABOUT) {
-        let rows: Vec<&Vec<String>> = sheet.rows.iter().filter(|row| sheet.text(row, "part") == part).collect();
+        let rows: Vec<&Vec<String>> = sheet.of([("part", part)]).collect();
         if rows.is_empty() {
             continue;
         }
@@ -78,18 +77,9 @@ pub fn page(sheet: &Sheet) -> String {
     }
     text.push_str("\n## Held by tests\n\nPlaces without another method beside ours. `--faults` tells which tests find their fault.\n\n");
     text.push_str("| part | place | what holds | test | fault that it finds |\n|---|---|---|---|---|\n");
-    for held in HELD {
-        let fault = held.fault;
-        let wrong = fault.wrong.split('\n').next().unwrap_or_default().trim();
-        text.push_str(&format!(
-            "| {} | {} | {} | `{}` | `{}`: `{}` |\n",
-            held.part,
-            held.place,
-            held.must,
-            held.test[1],
-            fault.file,
-            wrong.replace('|', "\\|")
-        ));
+    for Held { part, place, must, test: [_, test], file, wrong, .. } in held {
+        let wrong = wrong.split('\n').next().unwrap_or_default().trim().replace('|', "\\|");
+        text.push_str(&format!("| {part} | {place} | {must} | `{test}` | `{file}`: `{wrong}` |\n"));
     }
     let footer = Provenance::footer(&sheet.notes);
     text.push_str(&format!("\n[Numbers](stability.csv). {}\n", footer.join(". ")));

@@ -67,17 +67,10 @@ impl Finding {
         self.value <= self.limit
     }
 
-    fn cells(&self) -> [String; 8] {
-        [
-            self.part.into(),
-            self.place.into(),
-            self.method.clone(),
-            u8::from(self.ours).to_string(),
-            format!("{:.3e}", self.value),
-            self.unit.into(),
-            format!("{:e}", self.limit),
-            u8::from(self.holds()).to_string(),
-        ]
+    fn cells(&self) -> String {
+        let Finding { part, place, method, value, unit, limit, .. } = self;
+        let [ours, holds] = [self.ours, self.holds()].map(u8::from);
+        format!("{part}|{place}|{method}|{ours}|{value:.3e}|{unit}|{limit:e}|{holds}")
     }
 }
 
@@ -97,11 +90,12 @@ pub fn run(request: &StabilityRequest) -> Result<Vec<PathBuf>, ChartError> {
     let output = &request.output;
     let sheet = output.sheet("stability", || {
         let mut sheet = Sheet::measured(&COLUMNS, "");
-        measure(request.quick)?.iter().for_each(|finding| sheet.push(finding.cells()));
+        measure(request.quick)?.iter().for_each(|finding| sheet.line(finding.cells()));
         Ok::<_, ChartError>(sheet)
     })?;
     let page = output.folder.join("stability.md");
-    std::fs::write(&page, map::page(&sheet)).map_err(|error| ChartError::Write(page.clone(), error.to_string()))?;
+    let held = held::held().map_err(|error| ChartError::Failed(format!("held.toml: {error}")))?;
+    std::fs::write(&page, map::page(&sheet, &held)).map_err(|error| ChartError::Write(page.clone(), error.to_string()))?;
     Ok(vec![output.csv("stability"), page])
 }
 

@@ -4,7 +4,6 @@
 //! - [`single`]: a ray through the binary tree, the plain method.
 //! - [`packet`]: packets from one eye through it: those of Wald et al. 2007, and those of Sei 2008 that split.
 //! - [`wide`]: the tree of eight boxes a node, ray by ray, and in packets of any size that split as they descend.
-//! - [`validate`](mod@validate): says what is wrong with a tree.
 //! - [`scenes`]: what they are measured on.
 
 // An axis indexes several arrays at once.
@@ -17,7 +16,6 @@ pub mod scenes;
 pub mod single;
 mod split;
 pub mod triangle;
-pub mod validate;
 pub mod wide;
 
 pub use bundle::EyePacket;
@@ -25,5 +23,4 @@ pub use lensrunner::judge::bvh::{Bounds, Costs, MAX_DEPTH, Node, Scalar, Setting
 pub use packet::EyePackets;
 pub use ray::{Hit, Ray};
 pub use single::Mesh;
-pub use validate::{Census, Fault, validate};
 pub use wide::{Instructions, Packets, Wide};

@@ -37,6 +37,8 @@ impl Hit {
     pub const NONE: u32 = u32::MAX;
     /// Nothing was met.
     pub const MISS: Hit = Hit { t: f32::INFINITY, triangle: Hit::NONE };
+    /// Something was met; nobody has asked what.
+    pub const SOME: Hit = Hit { t: 0.0, triangle: 0 };
 
     /// Whether something was met.
     pub fn is_hit(&self) -> bool {

@@ -15,15 +15,6 @@ pub struct Mesh {
     pub corners: Vec<[[f32; 3]; 3]>,
 }
 
-/// What was looked at for a ray.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Work {
-    /// Tests against a box.
-    pub boxes: usize,
-    /// Tests against a triangle.
-    pub triangles: usize,
-}
-
 impl Mesh {
     /// Builds the tree of Sei 2008. Triangles with a corner that is not finite are left out: no ray meets them.
     pub fn new(triangles: &[[[f32; 3]; 3]], settings: &Settings) -> Mesh {
@@ -35,26 +26,17 @@ impl Mesh {
 
     /// The nearest triangle that a ray meets.
     pub fn closest(&self, ray: &Ray) -> Hit {
-        self.descend(ray, false, |_| ())
+        self.descend(ray, |_| ())
     }
 
-    /// The same, and how much was looked at.
-    pub fn closest_counted(&self, ray: &Ray) -> (Hit, Work) {
-        let mut all = Work::default();
-        let hit = self.descend(ray, false, |work| {
-            all.boxes += work.boxes;
-            all.triangles += work.triangles;
-        });
-        (hit, all)
-    }
-
-    /// Whether a ray meets anything.
-    pub fn occluded(&self, ray: &Ray) -> bool {
-        self.descend(ray, true, |_| ()).is_hit()
+    /// The same, and how many boxes were tested.
+    pub fn closest_counted(&self, ray: &Ray) -> (Hit, usize) {
+        let mut boxes = 0;
+        (self.descend(ray, |more| boxes += more), boxes)
     }
 
     #[inline]
-    fn descend(&self, ray: &Ray, any: bool, mut count: impl FnMut(Work)) -> Hit {
+    fn descend(&self, ray: &Ray, mut count: impl FnMut(usize)) -> Hit {
         let mut best = Hit::MISS;
         let Some(root) = self.tree.nodes.first() else { return best };
         let slabs = Slabs::new(ray, widening(&root.bounds, ray.origin));
@@ -75,13 +57,12 @@ impl Mesh {
             loop {
                 let node = &self.tree.nodes[at];
                 if node.is_leaf() {
-                    count(Work { boxes: 0, triangles: node.run().len() });
                     for place in node.run() {
                         shear.update(&self.corners[place], self.tree.order[place], ray.until, &mut best);
                     }
                     break;
                 }
-                count(Work { boxes: 2, triangles: 0 });
+                count(2);
                 let until = ray.until.min(best.t);
                 let [left, right] = node.children();
                 let enters = [left, right].map(|child| slabs.enter(&self.tree.nodes[child].bounds, until));
@@ -96,9 +77,6 @@ impl Mesh {
                         near
                     }
                 };
-            }
-            if any && best.is_hit() {
-                break;
             }
         }
         best

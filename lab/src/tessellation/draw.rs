@@ -2,7 +2,7 @@
 
 use super::measure::OWN;
 use super::ways::NAMES;
-use crate::chart::{Provenance, Sheet};
+use crate::chart::{Provenance, Sheet, range};
 use crate::plot::{Axis, Figure, Guide, Line, Lines, Panel};
 
 /// A row for each scene: displacement against vertices, against time, and pixels that show something else.
@@ -33,7 +33,7 @@ const LEAST: f64 = 1e-3;
 
 fn panel(sheet: &Sheet, scene: &str, (cost, x): (&str, &str), (error, y): (&str, &str)) -> Panel {
     let line = |name: &str| {
-        let rows: Vec<_> = sheet.rows.iter().filter(|row| sheet.text(row, "scene") == scene && sheet.text(row, "way") == name).collect();
+        let rows: Vec<_> = sheet.of([("scene", scene), ("way", name)]).collect();
         // A picture that the renderer refuses is a cross at the upper end.
         let place = |error: f64| if error.is_nan() { f64::INFINITY } else { error.max(LEAST) };
         let point = |row: &&Vec<String>| [sheet.number(row, cost), place(sheet.number(row, error))];
@@ -54,14 +54,11 @@ fn panel(sheet: &Sheet, scene: &str, (cost, x): (&str, &str), (error, y): (&str,
 /// How far each is off, and what ours costs, over the scenes.
 fn verdict(sheet: &Sheet, scenes: &[&str]) -> String {
     let of = |scene: &str, way: &str, column: &str| {
-        let rows = sheet.rows.iter().filter(|row| sheet.text(row, "scene") == scene && sheet.text(row, "way") == way);
+        let rows = sheet.of([("scene", scene), ("way", way)]);
         let own = |row: &&Vec<String>| sheet.number(row, "bound_px").is_nan() || sheet.number(row, "bound_px") == OWN;
         rows.filter(own).map(|row| sheet.number(row, column)).next().unwrap_or(f64::NAN)
     };
-    let range = |value: &dyn Fn(&str) -> f64| {
-        let values = scenes.iter().map(|scene| value(scene)).filter(|value| value.is_finite());
-        values.fold([f64::INFINITY, 0.0], |[least, most], value| [least.min(value), most.max(value)])
-    };
+    let range = |value: &dyn Fn(&str) -> f64| range(scenes.iter().map(|scene| value(scene)));
     let [_, ours] = range(&|scene| of(scene, NAMES[0], "p99_px"));
     let [least, most] = range(&|scene| of(scene, NAMES[1], "p99_px"));
     let [whole, wholes] = range(&|scene| of(scene, NAMES[2], "p99_px"));

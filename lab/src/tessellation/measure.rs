@@ -10,7 +10,7 @@ use lensrunner::scene::{self, GameConfig};
 
 use super::TessellationRequest;
 use super::ways::{NAMES, Way};
-use crate::chart::{ChartError, Sheet, Timing, quantile};
+use crate::chart::{ChartError, Sheet, Timing, mean, quantile};
 use crate::compare::deadline::Deadline;
 use crate::compare::measure::displacement::Effort;
 use crate::compare::measure::metrics::{Verdict, compare_with};
@@ -64,21 +64,16 @@ pub fn measure(request: &TessellationRequest) -> Result<Sheet, ChartError> {
             case.config = way.config(&base);
             contestant.set_midpoint(way.is_midpoint());
             let found = judged(&case, &judge, &contestant);
-            let mut cells = vec![name.clone(), NAMES[way.family()].into(), way.bound().to_string(), counters.vertices.to_string()];
-            cells.extend([format!("{:.3}", time.median), format!("{:.3}", time.median / own)]);
-            match found {
-                Ok(seen) => {
-                    cells.extend([seen.mean, seen.most, seen.max].map(|px| format!("{px:.4}")));
-                    cells.extend([seen.measured.to_string(), format!("{:.3}", seen.differ)]);
+            let found = match found {
+                Ok(Seen { mean, most, max, measured, differ }) => {
                     let bound = if way.bound().is_nan() { OWN } else { way.bound() };
-                    cells.extend([u8::from(seen.most.is_nan() || seen.most > bound).to_string(), counters.complaint().unwrap_or_default()]);
+                    let failed = u8::from(most.is_nan() || most > bound);
+                    format!("{mean:.4}|{most:.4}|{max:.4}|{measured}|{differ:.3}|{failed}|{}", counters.complaint().unwrap_or_default())
                 }
-                Err(reason) => {
-                    cells.extend(["NaN", "NaN", "NaN", "0", "NaN", "1"].map(str::to_owned));
-                    cells.push(reason);
-                }
-            }
-            sheet.push(cells);
+                Err(reason) => format!("NaN|NaN|NaN|0|NaN|1|{reason}"),
+            };
+            let (way, bound, median) = (NAMES[way.family()], way.bound(), time.median);
+            sheet.line(format_args!("{name}|{way}|{bound}|{}|{median:.3}|{:.3}|{found}", counters.vertices, median / own));
         }
     }
     Ok(sheet)
@@ -109,7 +104,7 @@ fn seen(verdict: &Verdict) -> Seen {
     let at = |share: f64| quantile(displaced.iter().copied(), share);
     let sum = |count: fn(&crate::compare::measure::metrics::Group) -> usize| verdict.groups.iter().map(count).sum::<usize>() as f64;
     Seen {
-        mean: displaced.iter().sum::<f64>() / displaced.len().max(1) as f64,
+        mean: mean(&displaced),
         most: at(0.99),
         max: at(1.0),
         measured: displaced.len(),

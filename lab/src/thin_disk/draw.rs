@@ -1,6 +1,6 @@
 //! The picture of the chart `trace`, from its sheet alone.
 
-use crate::chart::{Provenance, Sheet};
+use crate::chart::{Provenance, Sheet, range};
 use crate::plot::{Axis, Figure, Guide, Panel, Point, Scatter};
 
 /// Error against speed, of redshift and of flux.
@@ -47,9 +47,8 @@ pub fn figure(sheet: &Sheet) -> Figure {
 /// How many times as fast as Gyoto the others are, or as the judge where there is no Gyoto.
 fn verdict(sheet: &Sheet) -> String {
     let rates = |method: &str| {
-        let rows = sheet.rows.iter().filter(|row| sheet.text(row, "method") == method && sheet.number(row, "tolerance") > 1e-15);
-        let rates = rows.map(|row| sheet.number(row, "rays_per_second")).filter(|rate| rate.is_finite());
-        rates.fold([f64::INFINITY, 0.0], |[least, most], rate| [least.min(rate), most.max(rate)])
+        let rows = sheet.of([("method", method)]).filter(|row| sheet.number(row, "tolerance") > 1e-15);
+        range(rows.map(|row| sheet.number(row, "rays_per_second")))
     };
     let (shape, judge, gyoto) = (rates("shape of the ray"), rates("judge"), rates("Gyoto"));
     if gyoto[1] > 0.0 {

@@ -13,7 +13,7 @@ use clap::Args;
 use glam::DVec3;
 
 use crate::chart::{ChartError, Output, Sheet};
-use crate::thin_disk::ray::{Impact, Ring, Screen, image, orbit_shift};
+use crate::thin_disk::ray::{Impact, Ring, Screen, image};
 use lensrunner::argument::whole;
 use lensrunner::judge::picture::{Crossing, World};
 use lensrunner::scene::disk::radial::page_thorne_flux;
@@ -157,9 +157,10 @@ fn measure(pixels: usize) -> Sheet {
     // Beyond what f64 resolves: the steps are then as short as rounding allows.
     let truth = judge(&screen, &RING, 1e-16);
     let mut push = |method: &str, tolerance: f64, rays: usize, rate: f64, d: &Difference| {
-        let numbers = [d.shift, d.shift_median, d.flux, d.flux_median].map(|x| format!("{x:.3e}"));
-        let head = [method.to_owned(), format!("{tolerance:e}"), rays.to_string(), format!("{rate:.1}")];
-        sheet.push(head.into_iter().chain(numbers).chain([d.coverage.to_string()]));
+        let Difference { shift, shift_median, flux, flux_median, coverage } = d;
+        sheet.line(format_args!(
+            "{method}|{tolerance:e}|{rays}|{rate:.1}|{shift:.3e}|{shift_median:.3e}|{flux:.3e}|{flux_median:.3e}|{coverage}"
+        ));
     };
     for exponent in [4, 6, 8, 10, 12, 14] {
         let tolerance = 10f64.powi(-exponent);
@@ -202,17 +203,4 @@ fn timed(rays: usize, seconds: f64, mut draw: impl FnMut() -> Vec<Impact>) -> (V
             return (picture, rays as f64 / best);
         }
     }
-}
-
-/// The light's angular momentum about +z over its energy at a crossing, r_s: for tests of [`orbit_shift`].
-pub fn turning(crossing: &Crossing) -> f64 {
-    let (x, k) = (crossing.position, crossing.momentum);
-    let r = x.length();
-    let energy = k.length() - river_speed(r) * x.dot(k) / r;
-    x.cross(k).z / energy
-}
-
-/// As [`judge`]'s g, by the constants of the motion.
-pub fn shift_by_constants(crossing: &Crossing, screen: &Screen) -> f64 {
-    orbit_shift(crossing.position.length(), screen.radius, turning(crossing))
 }

@@ -102,21 +102,10 @@ pub fn run(request: &WindowRequest) -> Result<Vec<PathBuf>, ChartError> {
 
 fn write_row(sheet: &mut Sheet, [width, height]: [u32; 2], what: &str, round: u32, rates: &Rates, empty: f64) -> String {
     let Rates { frames, mean, least, rung } = rates;
-    sheet.push([
-        format!("{width}x{height}"),
-        what.to_owned(),
-        round.to_string(),
-        frames.to_string(),
-        format!("{mean:.2}"),
-        format!("{least:.2}"),
-        format!("{:.3}", mean / empty),
-        format!("{:.3}", least / empty),
-        rung.to_string(),
-    ]);
+    let (share, worst) = (mean / empty, least / empty);
+    sheet.line(format_args!("{width}x{height}|{what}|{round}|{frames}|{mean:.2}|{least:.2}|{share:.3}|{worst:.3}|{rung}"));
     format!(
-        "{width}x{height}, {what}: {mean:.1} frames/s, {:.2} of the empty window; least over half a second {least:.1}, {:.2}; rung {rung}",
-        mean / empty,
-        least / empty
+        "{width}x{height}, {what}: {mean:.1} frames/s, {share:.2} of the empty window; least over half a second {least:.1}, {worst:.2}; rung {rung}"
     )
 }
 

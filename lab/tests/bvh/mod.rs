@@ -3,3 +3,4 @@
 mod build;
 mod rays;
 mod robust;
+mod validate;

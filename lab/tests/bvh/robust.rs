@@ -353,9 +353,9 @@ fn axis_rays_visit_few_nodes() {
                 let (mut origin, mut direction) = ([0.013 * i as f32 - 0.3; 3], [0.0; 3]);
                 origin[axis] = -20.0 * sign;
                 direction[axis] = sign;
-                let (hit, work) = mesh.closest_counted(&Ray::new(origin, direction));
+                let (hit, boxes) = mesh.closest_counted(&Ray::new(origin, direction));
                 assert_eq!(hit, mesh.closest(&Ray::new(origin, direction)));
-                most = most.max(work.boxes);
+                most = most.max(boxes);
             }
         }
     }

@@ -23,6 +23,7 @@ use crate::render::stage::settings;
 use crate::scene::crew::Crew;
 use crate::scene::mission::GoalTask;
 use crate::sim::replay::Playback;
+use crate::sim::snapshot::FrameCamera;
 use now::Now;
 use quality::Quality;
 use sight::{ScreenContent, is_cut};

@@ -1,6 +1,6 @@
 //! The Stanford bunny from a file, or a blob of as many triangles in its place.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::DVec3;
 
@@ -9,21 +9,15 @@ use super::{Triangle, View, rounded};
 /// The bunny stands in a cube of edge 1 around the origin.
 pub const VIEW: View = View::new([0.3, -1.6, 0.4], [0.0; 3]);
 
-/// What may be wrong with a PLY file.
-#[derive(Debug, thiserror::Error)]
-#[allow(missing_docs)]
-pub enum PlyError {
-    #[error("{path}: {source}", path = path.display())]
-    Io { path: PathBuf, source: std::io::Error },
-    #[error("{path}: {what}; expected binary_little_endian 1.0, vertices of float x, y, z and faces of uchar int vertex_indices", path = path.display())]
-    Format { path: PathBuf, what: String },
-}
+/// What a file must be.
+const FORMAT: &str = "binary_little_endian 1.0, vertices of float x, y, z and faces of uchar int vertex_indices";
 
-/// Reads a binary little-endian PLY of triangles and fits it into a cube of edge 1 around the origin, axes kept.
-pub fn read(path: &Path) -> Result<Vec<Triangle>, PlyError> {
-    let bytes = std::fs::read(path).map_err(|source| PlyError::Io { path: path.to_owned(), source })?;
-    let triangles = parse(&bytes).map_err(|what| PlyError::Format { path: path.to_owned(), what })?;
-    Ok(normalised(triangles))
+/// Reads a binary little-endian PLY of triangles and fits it into a cube of edge 1 around the origin, axes kept. An error says what is wrong
+/// with which file.
+pub fn read(path: &Path) -> Result<Vec<Triangle>, String> {
+    let named = |what: String| format!("{}: {what}", path.display());
+    let bytes = std::fs::read(path).map_err(|error| named(error.to_string()))?;
+    Ok(normalised(parse(&bytes).map_err(|what| named(format!("{what}; expected {FORMAT}")))?))
 }
 
 fn parse(bytes: &[u8]) -> Result<Vec<[DVec3; 3]>, String> {

@@ -5,7 +5,6 @@
 
 pub mod bunny;
 pub mod castle;
-pub mod needles;
 pub mod spd;
 
 /// Three corners.

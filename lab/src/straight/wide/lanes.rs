@@ -1,5 +1,13 @@
 //! Eight and sixteen numbers at once.
 
+/// Short functions of an impl, a line each, all inlined.
+macro_rules! inlined {
+    ($(fn $name:ident($($arguments:tt)*) -> $result:ty = $body:expr;)*) => {
+        $(#[inline(always)] fn $name($($arguments)*) -> $result { $body })*
+    };
+}
+pub(super) use inlined;
+
 /// Several f32 side by side. Each operation rounds like the scalar one, so every implementation gives the same bits.
 pub(super) trait Lanes: Copy {
     /// A truth a lane.
@@ -82,17 +90,10 @@ pub(super) trait Sixteen: Lanes<Array = [f32; 16]> {
 pub(super) struct Pair<L>(L, L);
 
 impl<L: Mask> Mask for Pair<L> {
-    #[inline(always)]
-    fn and(self, other: Self) -> Self {
-        Pair(self.0.and(other.0), self.1.and(other.1))
-    }
-    #[inline(always)]
-    fn or(self, other: Self) -> Self {
-        Pair(self.0.or(other.0), self.1.or(other.1))
-    }
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        self.0.bits() | self.1.bits() << 8
+    inlined! {
+        fn and(self, other: Self) -> Self = Pair(self.0.and(other.0), self.1.and(other.1));
+        fn or(self, other: Self) -> Self = Pair(self.0.or(other.0), self.1.or(other.1));
+        fn bits(self) -> u32 = self.0.bits() | self.1.bits() << 8;
     }
 }
 
@@ -108,57 +109,20 @@ impl<L: Eight> Lanes for Pair<L> {
         let [low, high]: &[[f32; 8]; 2] = bytemuck::cast_ref(from);
         Pair(L::load(low), L::load(high))
     }
-    #[inline(always)]
-    fn store(self) -> [f32; 16] {
-        bytemuck::cast([self.0.store(), self.1.store()])
-    }
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Pair(self.0.add(other.0), self.1.add(other.1))
-    }
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Pair(self.0.sub(other.0), self.1.sub(other.1))
-    }
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Pair(self.0.mul(other.0), self.1.mul(other.1))
-    }
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        Pair(self.0.div(other.0), self.1.div(other.1))
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Pair(self.0.min(other.0), self.1.min(other.1))
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Pair(self.0.max(other.0), self.1.max(other.1))
-    }
-    #[inline(always)]
-    fn roughly(self, factor: Self, addend: Self) -> Self {
-        Pair(self.0.roughly(factor.0, addend.0), self.1.roughly(factor.1, addend.1))
-    }
-    #[inline(always)]
-    fn less(self, other: Self) -> Self::Mask {
-        Pair(self.0.less(other.0), self.1.less(other.1))
-    }
-    #[inline(always)]
-    fn at_most(self, other: Self) -> Self::Mask {
-        Pair(self.0.at_most(other.0), self.1.at_most(other.1))
-    }
-    #[inline(always)]
-    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
-        Pair(L::select(mask.0, yes.0, no.0), L::select(mask.1, yes.1, no.1))
-    }
-    #[inline(always)]
-    fn least(self) -> f32 {
-        self.0.min(self.1).least()
-    }
-    #[inline(always)]
-    fn greatest(self) -> f32 {
-        self.0.max(self.1).greatest()
+    inlined! {
+        fn store(self) -> [f32; 16] = bytemuck::cast([self.0.store(), self.1.store()]);
+        fn add(self, other: Self) -> Self = Pair(self.0.add(other.0), self.1.add(other.1));
+        fn sub(self, other: Self) -> Self = Pair(self.0.sub(other.0), self.1.sub(other.1));
+        fn mul(self, other: Self) -> Self = Pair(self.0.mul(other.0), self.1.mul(other.1));
+        fn div(self, other: Self) -> Self = Pair(self.0.div(other.0), self.1.div(other.1));
+        fn min(self, other: Self) -> Self = Pair(self.0.min(other.0), self.1.min(other.1));
+        fn max(self, other: Self) -> Self = Pair(self.0.max(other.0), self.1.max(other.1));
+        fn roughly(self, factor: Self, addend: Self) -> Self = Pair(self.0.roughly(factor.0, addend.0), self.1.roughly(factor.1, addend.1));
+        fn less(self, other: Self) -> Self::Mask = Pair(self.0.less(other.0), self.1.less(other.1));
+        fn at_most(self, other: Self) -> Self::Mask = Pair(self.0.at_most(other.0), self.1.at_most(other.1));
+        fn select(mask: Self::Mask, yes: Self, no: Self) -> Self = Pair(L::select(mask.0, yes.0, no.0), L::select(mask.1, yes.1, no.1));
+        fn least(self) -> f32 = self.0.min(self.1).least();
+        fn greatest(self) -> f32 = self.0.max(self.1).greatest();
     }
 }
 
@@ -210,32 +174,18 @@ fn compare(a: Portable, b: Portable, f: impl Fn(f32, f32) -> bool) -> Portable {
 
 /// All bits of a lane set or none.
 impl Mask for Portable {
-    #[inline(always)]
-    fn and(self, other: Self) -> Self {
-        zip(self, other, |a, b| f32::from_bits(a.to_bits() & b.to_bits()))
-    }
-    #[inline(always)]
-    fn or(self, other: Self) -> Self {
-        zip(self, other, |a, b| f32::from_bits(a.to_bits() | b.to_bits()))
-    }
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        (0..8).fold(0, |bits, i| bits | self.0[i].to_bits() >> 31 << i)
+    inlined! {
+        fn and(self, other: Self) -> Self = zip(self, other, |a, b| f32::from_bits(a.to_bits() & b.to_bits()));
+        fn or(self, other: Self) -> Self = zip(self, other, |a, b| f32::from_bits(a.to_bits() | b.to_bits()));
+        fn bits(self) -> u32 = (0..8).fold(0, |bits, i| bits | self.0[i].to_bits() >> 31 << i);
     }
 }
 
 impl Eight for Portable {
-    #[inline(always)]
-    fn columns(rows: &[[f32; 7]; 8]) -> [Self; 7] {
-        std::array::from_fn(|column| Portable(rows.map(|row| row[column])))
-    }
-    #[inline(always)]
-    fn last_columns(rows: &[[f32; 7]; 8]) -> [Self; 4] {
-        std::array::from_fn(|column| Portable(rows.map(|row| row[3 + column])))
-    }
-    #[inline(always)]
-    fn leasts(rows: [Self; 8]) -> Self {
-        Portable(rows.map(Lanes::least))
+    inlined! {
+        fn columns(rows: &[[f32; 7]; 8]) -> [Self; 7] = std::array::from_fn(|column| Portable(rows.map(|row| row[column])));
+        fn last_columns(rows: &[[f32; 7]; 8]) -> [Self; 4] = std::array::from_fn(|column| Portable(rows.map(|row| row[3 + column])));
+        fn leasts(rows: [Self; 8]) -> Self = Portable(rows.map(Lanes::least));
     }
     #[inline(always)]
     fn prefetch<T>(_: &T) {}
@@ -244,64 +194,22 @@ impl Eight for Portable {
 impl Lanes for Portable {
     type Mask = Portable;
     type Array = [f32; 8];
-    #[inline(always)]
-    fn splat(value: f32) -> Self {
-        Portable([value; 8])
-    }
-    #[inline(always)]
-    fn load(from: &[f32; 8]) -> Self {
-        Portable(*from)
-    }
-    #[inline(always)]
-    fn store(self) -> [f32; 8] {
-        self.0
-    }
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        zip(self, other, |a, b| a + b)
-    }
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        zip(self, other, |a, b| a - b)
-    }
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        zip(self, other, |a, b| a * b)
-    }
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        zip(self, other, |a, b| a / b)
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        zip(self, other, |a, b| if a < b { a } else { b })
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        zip(self, other, |a, b| if a > b { a } else { b })
-    }
-    #[inline(always)]
-    fn roughly(self, factor: Self, addend: Self) -> Self {
-        self.mul(factor).add(addend)
-    }
-    #[inline(always)]
-    fn less(self, other: Self) -> Self {
-        compare(self, other, |a, b| a < b)
-    }
-    #[inline(always)]
-    fn at_most(self, other: Self) -> Self {
-        compare(self, other, |a, b| a <= b)
-    }
-    #[inline(always)]
-    fn select(mask: Self, yes: Self, no: Self) -> Self {
-        Portable(std::array::from_fn(|i| if mask.0[i].is_sign_negative() { yes.0[i] } else { no.0[i] }))
-    }
-    #[inline(always)]
-    fn least(self) -> f32 {
-        self.0.into_iter().fold(f32::INFINITY, f32::min)
-    }
-    #[inline(always)]
-    fn greatest(self) -> f32 {
-        self.0.into_iter().fold(f32::NEG_INFINITY, f32::max)
+    inlined! {
+        fn splat(value: f32) -> Self = Portable([value; 8]);
+        fn load(from: &[f32; 8]) -> Self = Portable(*from);
+        fn store(self) -> [f32; 8] = self.0;
+        fn add(self, other: Self) -> Self = zip(self, other, |a, b| a + b);
+        fn sub(self, other: Self) -> Self = zip(self, other, |a, b| a - b);
+        fn mul(self, other: Self) -> Self = zip(self, other, |a, b| a * b);
+        fn div(self, other: Self) -> Self = zip(self, other, |a, b| a / b);
+        fn min(self, other: Self) -> Self = zip(self, other, |a, b| if a < b { a } else { b });
+        fn max(self, other: Self) -> Self = zip(self, other, |a, b| if a > b { a } else { b });
+        fn roughly(self, factor: Self, addend: Self) -> Self = self.mul(factor).add(addend);
+        fn less(self, other: Self) -> Self = compare(self, other, |a, b| a < b);
+        fn at_most(self, other: Self) -> Self = compare(self, other, |a, b| a <= b);
+        fn select(mask: Self, yes: Self, no: Self) -> Self =
+            Portable(std::array::from_fn(|i| if mask.0[i].is_sign_negative() { yes.0[i] } else { no.0[i] }));
+        fn least(self) -> f32 = self.0.into_iter().fold(f32::INFINITY, f32::min);
+        fn greatest(self) -> f32 = self.0.into_iter().fold(f32::NEG_INFINITY, f32::max);
     }
 }

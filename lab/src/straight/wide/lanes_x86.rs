@@ -7,7 +7,7 @@
 
 use std::arch::x86_64::*;
 
-use super::lanes::{Eight, Lanes, Mask, Sixteen};
+use super::lanes::{Eight, Lanes, Mask, Sixteen, inlined};
 
 /// AVX2 and FMA.
 #[derive(Clone, Copy)]
@@ -52,17 +52,10 @@ fn four_leasts(a: __m256, b: __m256, c: __m256, d: __m256) -> __m256 {
 
 // SAFETY (all blocks of this impl): the instructions exist, see above. All bits of a lane are set or none.
 impl Mask for Avx {
-    #[inline(always)]
-    fn and(self, other: Self) -> Self {
-        Avx(unsafe { _mm256_and_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn or(self, other: Self) -> Self {
-        Avx(unsafe { _mm256_or_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        unsafe { _mm256_movemask_ps(self.0) as u32 }
+    inlined! {
+        fn and(self, other: Self) -> Self = Avx(unsafe { _mm256_and_ps(self.0, other.0) });
+        fn or(self, other: Self) -> Self = Avx(unsafe { _mm256_or_ps(self.0, other.0) });
+        fn bits(self) -> u32 = unsafe { _mm256_movemask_ps(self.0) as u32 };
     }
 }
 
@@ -112,49 +105,18 @@ impl Lanes for Avx {
         unsafe { _mm256_storeu_ps(out.as_mut_ptr(), self.0) };
         out
     }
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Avx(unsafe { _mm256_add_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Avx(unsafe { _mm256_sub_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Avx(unsafe { _mm256_mul_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        Avx(unsafe { _mm256_div_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Avx(unsafe { _mm256_min_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Avx(unsafe { _mm256_max_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Avx(unsafe { _mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0) })
-    }
-    #[inline(always)]
-    fn roughly(self, factor: Self, addend: Self) -> Self {
-        Avx(unsafe { _mm256_fmadd_ps(self.0, factor.0, addend.0) })
-    }
-    #[inline(always)]
-    fn less(self, other: Self) -> Self {
-        Avx(unsafe { _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn at_most(self, other: Self) -> Self {
-        Avx(unsafe { _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn select(mask: Self, yes: Self, no: Self) -> Self {
-        Avx(unsafe { _mm256_blendv_ps(no.0, yes.0, mask.0) })
+    inlined! {
+        fn add(self, other: Self) -> Self = Avx(unsafe { _mm256_add_ps(self.0, other.0) });
+        fn sub(self, other: Self) -> Self = Avx(unsafe { _mm256_sub_ps(self.0, other.0) });
+        fn mul(self, other: Self) -> Self = Avx(unsafe { _mm256_mul_ps(self.0, other.0) });
+        fn div(self, other: Self) -> Self = Avx(unsafe { _mm256_div_ps(self.0, other.0) });
+        fn min(self, other: Self) -> Self = Avx(unsafe { _mm256_min_ps(self.0, other.0) });
+        fn max(self, other: Self) -> Self = Avx(unsafe { _mm256_max_ps(self.0, other.0) });
+        fn abs(self) -> Self = Avx(unsafe { _mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0) });
+        fn roughly(self, factor: Self, addend: Self) -> Self = Avx(unsafe { _mm256_fmadd_ps(self.0, factor.0, addend.0) });
+        fn less(self, other: Self) -> Self = Avx(unsafe { _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0) });
+        fn at_most(self, other: Self) -> Self = Avx(unsafe { _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0) });
+        fn select(mask: Self, yes: Self, no: Self) -> Self = Avx(unsafe { _mm256_blendv_ps(no.0, yes.0, mask.0) });
     }
     #[inline(always)]
     fn least(self) -> f32 {
@@ -183,17 +145,10 @@ pub(super) struct Avx512(__m512);
 pub(super) struct Bits(__mmask16);
 
 impl Mask for Bits {
-    #[inline(always)]
-    fn and(self, other: Self) -> Self {
-        Bits(self.0 & other.0)
-    }
-    #[inline(always)]
-    fn or(self, other: Self) -> Self {
-        Bits(self.0 | other.0)
-    }
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        u32::from(self.0)
+    inlined! {
+        fn and(self, other: Self) -> Self = Bits(self.0 & other.0);
+        fn or(self, other: Self) -> Self = Bits(self.0 | other.0);
+        fn bits(self) -> u32 = u32::from(self.0);
     }
 }
 
@@ -216,57 +171,21 @@ impl Lanes for Avx512 {
         unsafe { _mm512_storeu_ps(out.as_mut_ptr(), self.0) };
         out
     }
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Avx512(unsafe { _mm512_add_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Avx512(unsafe { _mm512_sub_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Avx512(unsafe { _mm512_mul_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        Avx512(unsafe { _mm512_div_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Avx512(unsafe { _mm512_min_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Avx512(unsafe { _mm512_max_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Avx512(unsafe { _mm512_abs_ps(self.0) })
-    }
-    #[inline(always)]
-    fn roughly(self, factor: Self, addend: Self) -> Self {
-        Avx512(unsafe { _mm512_fmadd_ps(self.0, factor.0, addend.0) })
-    }
-    #[inline(always)]
-    fn less(self, other: Self) -> Bits {
-        Bits(unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn at_most(self, other: Self) -> Bits {
-        Bits(unsafe { _mm512_cmp_ps_mask::<_CMP_LE_OQ>(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn select(mask: Bits, yes: Self, no: Self) -> Self {
-        Avx512(unsafe { _mm512_mask_blend_ps(mask.0, no.0, yes.0) })
-    }
-    #[inline(always)]
-    fn least(self) -> f32 {
-        Avx(self.folded()).least()
-    }
-    #[inline(always)]
-    fn greatest(self) -> f32 {
-        unsafe { Avx(_mm256_max_ps(_mm512_castps512_ps256(self.0), _mm512_extractf32x8_ps::<1>(self.0))).greatest() }
+    inlined! {
+        fn add(self, other: Self) -> Self = Avx512(unsafe { _mm512_add_ps(self.0, other.0) });
+        fn sub(self, other: Self) -> Self = Avx512(unsafe { _mm512_sub_ps(self.0, other.0) });
+        fn mul(self, other: Self) -> Self = Avx512(unsafe { _mm512_mul_ps(self.0, other.0) });
+        fn div(self, other: Self) -> Self = Avx512(unsafe { _mm512_div_ps(self.0, other.0) });
+        fn min(self, other: Self) -> Self = Avx512(unsafe { _mm512_min_ps(self.0, other.0) });
+        fn max(self, other: Self) -> Self = Avx512(unsafe { _mm512_max_ps(self.0, other.0) });
+        fn abs(self) -> Self = Avx512(unsafe { _mm512_abs_ps(self.0) });
+        fn roughly(self, factor: Self, addend: Self) -> Self = Avx512(unsafe { _mm512_fmadd_ps(self.0, factor.0, addend.0) });
+        fn less(self, other: Self) -> Bits = Bits(unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, other.0) });
+        fn at_most(self, other: Self) -> Bits = Bits(unsafe { _mm512_cmp_ps_mask::<_CMP_LE_OQ>(self.0, other.0) });
+        fn select(mask: Bits, yes: Self, no: Self) -> Self = Avx512(unsafe { _mm512_mask_blend_ps(mask.0, no.0, yes.0) });
+        fn least(self) -> f32 = Avx(self.folded()).least();
+        fn greatest(self) -> f32 =
+            unsafe { Avx(_mm256_max_ps(_mm512_castps512_ps256(self.0), _mm512_extractf32x8_ps::<1>(self.0))).greatest() };
     }
 }
 

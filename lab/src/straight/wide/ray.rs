@@ -16,13 +16,6 @@ impl Wide {
         self.each::<false>(rays, hits, &mut stack);
     }
 
-    /// The nearest triangle that a ray meets.
-    pub fn closest(&self, ray: &Ray) -> Hit {
-        let mut hit = [Hit::MISS];
-        self.closest_each(std::slice::from_ref(ray), &mut hit);
-        hit[0]
-    }
-
     /// Whether each ray meets anything before its end; the hit is any that was found.
     ///
     /// # Panics

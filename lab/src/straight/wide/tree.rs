@@ -86,13 +86,8 @@ pub const SETTINGS: Settings = Settings { costs: Costs { node: 2.0, primitive: 1
 impl Wide {
     /// Builds the tree; triangles with a corner that is not finite are left out.
     pub fn new(triangles: &[[[f32; 3]; 3]]) -> Wide {
-        Wide::with_settings(triangles, &SETTINGS)
-    }
-
-    /// Builds the tree with other costs. `max_leaf` above 8 counts as 8.
-    pub fn with_settings(triangles: &[[[f32; 3]; 3]], settings: &Settings) -> Wide {
         let boxes: Vec<Bounds<f32>> = triangles.iter().map(bounds).collect();
-        let tree = build(&boxes, &Settings { max_leaf: settings.max_leaf.min(8), ..*settings });
+        let tree = build(&boxes, &SETTINGS);
         let mut wide = Wide { nodes: Vec::new(), blocks: Vec::new(), root: Bounds::EMPTY, instructions: Instructions::detected() };
         if let Some(root) = tree.nodes.first() {
             wide.root = root.bounds;
@@ -101,19 +96,9 @@ impl Wide {
         wide
     }
 
-    /// The same tree without the processor's wide instructions.
-    pub fn portable(self) -> Wide {
-        self.limited(Instructions::Portable)
-    }
-
     /// The same tree with these instructions, where the processor has them.
     pub fn limited(self, to: Instructions) -> Wide {
         Wide { instructions: Instructions::detected().min(to), ..self }
-    }
-
-    /// Whether the processor's wide instructions are used.
-    pub fn is_fast(&self) -> bool {
-        self.instructions != Instructions::Portable
     }
 
     fn collapse(&mut self, tree: &Tree<f32>, triangles: &[[[f32; 3]; 3]]) {
