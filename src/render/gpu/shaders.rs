@@ -6,11 +6,11 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 
 use wgpu::naga::Module;
 
+use crate::lensing::methods::Method;
 use crate::render::gpu::library::{File, Library, Values, Worldlines, file};
-use crate::render::method::Method;
 
-/// The libraries that passes have been composed from. One for each choice, so that its modules are worked out once.
-static LIBRARIES: LazyLock<Mutex<HashMap<(Worldlines, Method), Library>>> = LazyLock::new(Default::default);
+/// The libraries that passes have been composed from. One for each choice of worldlines and method, so that its modules are worked out once.
+static LIBRARIES: LazyLock<Mutex<HashMap<(Worldlines, &str), Library>>> = LazyLock::new(Default::default);
 
 /// The passes of a frame, by the file that holds their entry points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -166,7 +166,7 @@ impl Pass {
         let worldlines = if self.worldlines() == Worldlines::Even { Worldlines::Even } else { worldlines };
         let values = Values { inside: inside && self.may_be_inside(), data_group: if self.draws_data() { 2 } else { 1 } };
         let mut libraries = LIBRARIES.lock().unwrap_or_else(PoisonError::into_inner);
-        let composed = match libraries.entry((worldlines, method)) {
+        let composed = match libraries.entry((worldlines, method.name)) {
             Entry::Occupied(library) => library.into_mut().compose(path, &[source, more].concat(), values),
             Entry::Vacant(place) => Library::new(worldlines, method, &[])
                 .and_then(|library| place.insert(library).compose(path, &[source, more].concat(), values)),
