@@ -1,6 +1,5 @@
 //! When the light left by which a body is seen, as the settings ask for it.
 
-use crate::lensing::methods::Method;
 use crate::render::instances::view::View;
 use crate::render::settings::Settings;
 use crate::sim::History;
