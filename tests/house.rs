@@ -11,7 +11,8 @@ const FLOORS: [(&str, &[&str]); 11] = [
     ("picture_file", &["user_file"]),
     ("spacetime", &[]),
     ("lensing", &["spacetime", "game_files", "user_file"]),
-    ("scene", &["spacetime", "game_files", "user_file"]),
+    // Of the methods of projection it knows the names alone.
+    ("scene", &["spacetime", "lensing::methods::NAMES", "game_files", "user_file"]),
     ("sim", &["argument", "spacetime", "scene", "game_files", "user_file"]),
     // The judge may look neither at the tables nor at the closed form of light.
     (

@@ -3,7 +3,13 @@
 use std::f64::consts::PI;
 
 use lensrunner::lensing::methods::{self, Projector, Query};
+use lensrunner::lensing::{Scheme, Table, bake};
 use lensrunner::spacetime::light::{Branch, Order};
+
+/// A table that is quick to make: the committed one, or one of few nodes.
+pub fn small(scheme: Scheme, _nodes: usize) -> Table {
+    if scheme == Scheme::Residual { crate::support::table().clone() } else { bake(scheme, 8, |_| ()) }
+}
 
 /// Where no light joins a point to a camera a method says so, or has no answer; none invents one, none returns NaN.
 pub fn says_where_no_ray_is(name: &str, method: &dyn Projector) {

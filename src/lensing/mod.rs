@@ -56,9 +56,10 @@ pub fn default_table() -> Table {
     default_table_or(|wrong| eprintln!("lensrunner: {wrong}; another takes its place"))
 }
 
-/// The file of another table, `paper-128.lut`, or where it is to be written.
-pub fn table_file(name: &str) -> PathBuf {
-    game_files::place_of(&format!("tables/{name}"))
+/// The file of another table, `paper-128.lut` or that of the full residual one, or where it is to be written.
+pub fn table_file(scheme: Scheme, nodes: usize) -> PathBuf {
+    let name = if scheme == Scheme::Residual { "full".into() } else { format!("{}-{nodes}", scheme.name()) };
+    game_files::place_of(&format!("tables/{name}.lut"))
 }
 
 /// The table of a file, if that can be used and has enough nodes.

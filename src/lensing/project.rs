@@ -38,14 +38,15 @@ pub enum AngleFrame {
 
 /// The method called `name`.
 pub fn method(name: &str) -> Result<Box<dyn Projector>, ProjectError> {
-    methods::named(name).ok_or_else(|| ProjectError::UnknownMethod { name: name.to_owned() })
+    let method = methods::named(name).ok_or_else(|| ProjectError::UnknownMethod { name: name.to_owned() })?;
+    Ok(method.made())
 }
 
 /// What is wrong with the input of [`project`].
 #[derive(Debug, thiserror::Error)]
 pub enum ProjectError {
     /// No method has that name.
-    #[error("unknown method {name:?}: choose one of {}", methods::names())]
+    #[error("unknown method {name:?}: choose one of {}", methods::NAMES.join(", "))]
     UnknownMethod {
         /// The name asked for.
         name: String,

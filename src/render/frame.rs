@@ -49,7 +49,7 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types:
             flags |= bit;
         }
     }
-    let bends = settings.method.bends();
+    let bends = settings.method.bends;
     // Without a hole there is no rain frame: all directions are those of static observers.
     let river = if bends { DVec3::ZERO } else { static_momentum(camera.position).unwrap_or(DVec3::ZERO) };
     let axis = |v: DVec3| v.as_vec3().to_array();

@@ -10,7 +10,6 @@ pub mod frame;
 pub mod geometry;
 pub mod gpu;
 pub mod instances;
-pub mod method;
 pub mod models;
 mod passes;
 pub mod plugin;
@@ -21,6 +20,7 @@ pub mod settings;
 pub mod shot;
 pub mod sky;
 pub mod stage;
+pub mod tables;
 mod workshop;
 
 pub use gpu::device::{DeviceError, Gpu};

@@ -1,6 +1,6 @@
 //! How the picture is made.
 
-use crate::render::method::Method;
+use crate::lensing::methods::Method;
 
 /// How the picture is made; the numbers come from `game.toml`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,7 +104,7 @@ impl Settings {
             resolution: 1.0,
             pixel_error: 0.25,
             orders: 3,
-            method: Method::Table,
+            method: Method::default(),
             light_delay: true,
             halvings: 13,
             midpoint: false,

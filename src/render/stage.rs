@@ -16,13 +16,13 @@ use crate::spacetime::frames;
 use crate::spacetime::matter::ShipState;
 use crate::spacetime::orbit::static_momentum;
 
+use crate::lensing::methods::{self, flat};
 use crate::render::Renderer;
 use crate::render::aurora::{AuroraAnimation, AuroraFrame, planet_history};
 use crate::render::disk::Disk;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::types::placed::OWN;
 use crate::render::instances::{DrawnObject, Motion, Placed, StandIn, View, instances_of};
-use crate::render::method::Method;
 use crate::render::models::coarse::stand_ins;
 use crate::render::models::{ModelRange, ModelSet};
 use crate::render::post_process::upscale::drawn_size;
@@ -317,7 +317,7 @@ pub fn settings(config: &GameConfig) -> Settings {
         pixel_error: render.pixel_error_budget as f32,
         orders: render.orders,
         // The reader of `game.toml` lets only names of methods in.
-        method: if render.lensing { Method::named(&render.method).unwrap_or_default() } else { Method::Flat },
+        method: if render.lensing { methods::named(&render.method).unwrap_or_default() } else { flat::METHOD },
         light_delay: render.light_delay,
         halvings: render.tessellation_max_level,
         vertex_budget: render.vertex_budget,

@@ -25,7 +25,7 @@ pub mod sky;
 
 pub use assembly::{Assembly, Body, Object};
 pub use camera::{Mount, SceneCamera, picture_size};
-pub use config::{GameConfig, METHODS};
+pub use config::GameConfig;
 pub use document::error::{Complaint, Complaints, ConfigError, SceneError};
 pub use load::{Scene, file, help, load, mission_names, names};
 pub use mission::{Difficulty, Mission};

@@ -2,8 +2,8 @@
 
 use lensrunner::lensing::Slice;
 use lensrunner::lensing::lookup::residuals;
+use lensrunner::lensing::methods::Method;
 use lensrunner::render::gpu::library::{Library, Values, Worldlines};
-use lensrunner::render::method::Method;
 
 use crate::support::table;
 
@@ -46,7 +46,7 @@ fn the_shader_is_valid() {
          @group(0) @binding(1) var<storage, read_write> out: array<vec4<f32>>;\n\
          @compute @workgroup_size(1) fn main() {\n\
          let ray = lens_lookup(1.0, 2.0, 1u); out[0] = vec4<f32>(ray.cos_psi, ray.sin_psi, ray.delay, ray.slope); }\n";
-    let library = Library::new(Worldlines::Bodies, Method::Table, &[("bindings", bindings)]);
+    let library = Library::new(Worldlines::Bodies, Method::default(), &[("bindings", bindings)]);
     let module = library.and_then(|mut library| library.compose("main", main, Values { inside: true, data_group: 1 }));
     let module = module.unwrap_or_else(|error| panic!("{error}"));
     naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty()).validate(&module).expect("valid");

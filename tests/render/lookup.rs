@@ -5,13 +5,13 @@ use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 
 use glam::{DMat3, DQuat, DVec3};
 use lensrunner::judge::shoot;
+use lensrunner::lensing::methods::{self, Method, flat};
 use lensrunner::lensing::{Scheme, Slice, bake};
 use lensrunner::render::Renderer;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback;
 use lensrunner::render::gpu::types::SeenVertex;
 use lensrunner::render::instances::{DrawnObject, Illumination as Light, Motion, Placed, View, instances_of};
-use lensrunner::render::method::Method;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
@@ -137,7 +137,7 @@ fn what_was_foreseen_is_seen_inside() {
     let mut bench = bench();
     let outside = falling(DVec3::new(0.0, 0.05, 1.6), DVec3::ZERO);
     // Another method before the first crossing: what was foreseen for the one before is kept, and this one is foreseen as well.
-    for method in [Method::Flat, Method::Table] {
+    for method in [flat::METHOD, Method::default()] {
         let settings = Settings { method, ..Settings::finest() };
         let frame = FrameInput { camera: outside, time: 0.0, placed: Vec::new(), aurora: None, settings };
         foreseeing.renderer.picture(&frame, false).unwrap();
@@ -298,7 +298,7 @@ fn a_far_camera_sees_what_is_near_the_horizon_on_time() {
 #[test]
 fn flat_space_projects_straight() {
     let mut bench = bench();
-    let settings = Settings { method: Method::Flat, ..Settings::finest() };
+    let settings = Settings { method: flat::METHOD, ..Settings::finest() };
     let camera = static_camera(DVec3::new(1.0, 2.0, 7.0), DVec3::new(0.1, -0.2, -1.0), DVec3::Y, 1.0);
     let position = DVec3::new(0.5, -1.0, -5.0);
     let placed = bench.place(&camera, 0.0, &bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, 0.5, 1), &settings);
@@ -344,8 +344,8 @@ fn paper_one_projects_by_its_tables_and_drops_triangles() {
     use lensrunner::lensing::paper;
     let mut bench = bench();
     let table = Arc::new(bake(Scheme::Paper, 24, |_| ()));
-    bench.renderer.tables().set_paper(table.clone());
-    let paper1 = Method::Paper1;
+    bench.renderer.tables().set(methods::paper::METHOD, table.clone());
+    let paper1 = methods::paper::METHOD;
     let settings = Settings { method: paper1, orders: 3, stars: false, milky_way: false, ..Settings::finest() };
     let camera = static_camera(DVec3::new(1.0, 2.0, 11.0), DVec3::new(0.1, -0.2, -1.0), DVec3::Y, 1.0);
     for position in [DVec3::new(3.0, -1.0, -5.0), DVec3::new(-2.0, 3.0, 25.0)] {
@@ -378,7 +378,7 @@ fn paper_one_projects_by_its_tables_and_drops_triangles() {
         (picture.layers.iter().filter(|texel| texel[0] == 1.0).count(), bench.renderer.counters().unwrap().indices / 3)
     };
     let (holed, drawn) = count(&mut bench, paper1);
-    let (whole, _) = count(&mut bench, Method::Table);
+    let (whole, _) = count(&mut bench, Method::default());
     println!("{holed} pixels by Yamashita 2012 ({drawn} triangles), {whole} by the table");
     assert!(drawn < 2 * 200 && drawn > 200, "{drawn} triangles of two orders of 200");
     assert!(holed < whole);

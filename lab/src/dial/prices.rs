@@ -31,7 +31,7 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
                     let mut steps = [0; Knob::ALL.len()];
                     steps[k] = step;
                     let [error, time, beside] = bench.beside(&mut shown, &finest, &asked, &turned(&asked, &steps))?;
-                    let (class, knob, Case { scene, at, .. }) = (class.name(), knob.name(), &case);
+                    let (class, knob, Case { scene, at, .. }) = (class.name(), knob.name, &case);
                     sheet.line(format_args!("{class}|{scene}|{at}|{knob}|{step}|{error:.5}|{time:.2}|{beside:.2}"));
                 }
             }
@@ -55,12 +55,12 @@ pub fn table(sheet: &Sheet) -> Result<String, ChartError> {
             let (mut dearest, mut quickest) = (0f64, 1f64);
             for step in 1..knob.steps() {
                 let number = step.to_string();
-                let rows = || sheet.of([("class", class.name()), ("knob", knob.name()), ("step", &number)]);
+                let rows = || sheet.of([("class", class.name()), ("knob", knob.name), ("step", &number)]);
                 let error = quantile(rows().map(|row| sheet.number(row, "FLIP")), BOUND);
                 dearest = dearest.max((MARGIN * error).min(1.0));
                 let time = quantile(rows().map(|row| sheet.number(row, "ms") / sheet.number(row, "finest ms")), 0.5);
                 quickest = if time < 1.0 - SAVES { quickest.min(time) } else { quickest };
-                text.push_str(&format!("{},{},{step},{},{dearest:.5},{quickest:.4}\n", class.name(), knob.name(), knob.says(step)));
+                text.push_str(&format!("{},{},{step},{},{dearest:.5},{quickest:.4}\n", class.name(), knob.name, knob.says(step)));
             }
         }
     }

@@ -1,14 +1,13 @@
 //! The game's methods on a graphics adapter.
 
 use super::ProjectionRequest;
-use super::methods::FAMILIES;
+use super::methods::{FAMILIES, find};
 use super::race::Race;
 use super::score::{Score, Truth, tally};
 use super::time::TimedFrame;
 use crate::chart::{ChartError, Sheet};
 use lensrunner::lensing::adversarial::{Row, by_camera};
-use lensrunner::lensing::methods::Vertex;
-use lensrunner::render::method::Method;
+use lensrunner::lensing::methods::{METHODS, Method, Vertex};
 use lensrunner::spacetime::light::{Branch, Order};
 
 /// Of the cameras that are timed on the processor every so manyth is timed here: an adapter does many points of each at once.
@@ -20,16 +19,6 @@ fn packed(vertex: Vertex, order: Order, branch: Branch) -> [f32; 4] {
     let Vertex { along, across, height, .. } = vertex;
     let age = if branch == Branch::Minus { 4.0 } else { 0.0 };
     [along, across, height, f32::from(order.number()) + age]
-}
-
-/// The index of the method's family in [`FAMILIES`].
-fn family(method: Method) -> usize {
-    match method {
-        Method::Table => 0,
-        Method::Paper1 => 1,
-        Method::Flat => 2,
-        Method::Exact => 4,
-    }
 }
 
 /// The result, or None and a word on stderr.
@@ -88,17 +77,18 @@ pub fn measure(
 ) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::measured(COLUMNS, &race.adapter());
     sheet.notes.push(("points".into(), format!("{}, {}", super::told(request, rows), super::draw::SAME)));
-    let wanted = |method: &Method| request.methods.is_empty() || request.methods.iter().any(|wanted| wanted == method.name());
-    let methods: Vec<_> = Method::all().filter(wanted).collect();
+    let wanted = |method: &Method| request.methods.is_empty() || request.methods.iter().any(|wanted| wanted == method.name);
+    let methods: Vec<_> = METHODS.into_iter().filter(wanted).collect();
     eprintln!("timing {} methods on {}", methods.len(), race.adapter());
     let times = nanoseconds(race, &methods, frames);
     for (method, time) in methods.into_iter().zip(times) {
-        eprintln!("scoring {} on the adapter", method.name());
+        eprintln!("scoring {} on the adapter", method.name);
         // What a frame hands to the adapter, where it is more than the constants of the camera.
-        let bytes = if matches!(method, Method::Table | Method::Paper1) { 16 * race.texels(method, 10.0).len() } else { 0 };
+        let bytes = method.table.map_or(0, |_| 16 * race.texels(method, 10.0).len());
+        let family = find(method.name).map_or("", |entry| FAMILIES[entry.family]);
         let answers = answers(race, method, rows);
         for ((order, truth), answers) in Order::ALL.into_iter().zip(truths).zip(&answers) {
-            let mut cells = vec![method.name().to_owned(), FAMILIES[family(method)].to_owned()];
+            let mut cells = vec![method.name.to_owned(), family.to_owned()];
             cells.extend([order.number().to_string(), rows.len().to_string()]);
             cells.extend(score_cells(&tally(rows, answers, truth)));
             // A large graphics card needs hundredths of a nanosecond.

@@ -20,7 +20,7 @@ use lensrunner::argument::whole;
 use lensrunner::spacetime::light::Order;
 
 use crate::chart::{ChartError, Output, Sheet};
-use methods::{CATALOGUE, Entry, FAMILIES, Method};
+use methods::{Entry, FAMILIES, Method};
 
 /// Every method of projection on the same adversarial points: error against time per lookup and against memory.
 #[derive(Args, Clone, Debug)]
@@ -72,12 +72,13 @@ type Methods = Vec<(Entry, Box<dyn Method>)>;
 
 /// The methods asked for.
 fn chosen(request: &ProjectionRequest) -> Result<Methods, ChartError> {
-    let wrong = request.methods.iter().find(|name| !CATALOGUE.iter().any(|entry| entry.name == name.as_str()));
-    if let Some(name) = wrong {
-        return Err(ChartError::Input(format!("unknown method {name:?}: choose among {}", methods::names())));
+    let mut all = methods::catalogue();
+    if let Some(name) = request.methods.iter().find(|name| methods::find(name).is_none()) {
+        let names: Vec<&str> = all.iter().map(|entry| entry.name).collect();
+        return Err(ChartError::Input(format!("unknown method {name:?}: choose among {}", names.join(", "))));
     }
-    let wanted = |entry: &&Entry| request.methods.is_empty() || request.methods.iter().any(|name| name == entry.name);
-    Ok(CATALOGUE.iter().filter(wanted).filter_map(|entry| Some((*entry, methods::named(entry.name)?))).collect())
+    all.retain(|entry| request.methods.is_empty() || request.methods.iter().any(|name| name == entry.name));
+    Ok(all.into_iter().filter_map(|entry| Some((entry, methods::named(entry.name)?))).collect())
 }
 
 /// What the rows are, for the notes of a sheet.

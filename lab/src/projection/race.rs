@@ -7,13 +7,13 @@ use std::time::Instant;
 
 use wgpu::{BufferUsages, ShaderStages};
 
+use lensrunner::lensing::methods::Method;
 use lensrunner::lensing::{self, Slice, Table};
 use lensrunner::render::Gpu;
 use lensrunner::render::gpu::layout::{Slot, TableTexture, bind, buffer, compute_of, layout, storage};
 use lensrunner::render::gpu::library::{File, Library, ShaderError, Values, Worldlines};
 use lensrunner::render::gpu::readback::{self, PictureError};
-use lensrunner::render::method::Method;
-use lensrunner::render::method::tables::Tables;
+use lensrunner::render::tables::Tables;
 
 use crate::stopwatch::Stopwatch;
 
@@ -36,7 +36,7 @@ pub struct Race {
     tables: Tables,
     layout: wgpu::BindGroupLayout,
     /// The look-up of each method, and the same dispatch without one.
-    pipelines: HashMap<Method, [wgpu::ComputePipeline; 2]>,
+    pipelines: HashMap<&'static str, [wgpu::ComputePipeline; 2]>,
 }
 
 impl Race {
@@ -100,9 +100,9 @@ impl Race {
         let texels = self.texels(method, l);
         let Race { gpu, layout, pipelines, .. } = self;
         let device = &gpu.device;
-        let pipeline = &pipelines.entry(method).or_insert_with(|| {
+        let pipeline = &pipelines.entry(method.name).or_insert_with(|| {
             let shader = shader(method).unwrap_or_else(|error| panic!("{error}"));
-            ["race", "idle"].map(|entry| compute_of(device, method.name(), shader.clone(), entry, &[Some(layout)]))
+            ["race", "idle"].map(|entry| compute_of(device, method.name, shader.clone(), entry, &[Some(layout)]))
         })[which];
         // Whole workgroups: the last row is looked up again.
         let mut padded = rows.to_vec();

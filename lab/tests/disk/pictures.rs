@@ -98,14 +98,14 @@ fn without_streaks_the_picture_is_the_exact_one_to_a_hundredth() {
 /// nothing.
 #[test]
 fn without_lensing_the_disk_is_a_flat_annulus() {
-    use lensrunner::render::method::Method;
+    use lensrunner::lensing::methods::flat;
     let size = [160, 90];
     let disk = a_disk();
     let [_, outer] = disk.gas.extent();
     let mut renderer = renderer(size);
     let camera = camera(24.0, 75.0, 90f64.to_radians());
     renderer.set_disk(Some(disk.clone()));
-    let straight = Settings { method: Method::Flat, ..settings() };
+    let straight = Settings { method: flat::METHOD, ..settings() };
     let mut picture = |settings| shown(&mut renderer, camera, 100.0, settings);
     let bent = picture(settings());
     let light = picture(straight);
@@ -136,9 +136,9 @@ fn without_lensing_the_disk_is_a_flat_annulus() {
 /// Straight light knows no horizon: a camera that has crossed it sees what one sees that was always inside.
 #[test]
 fn without_lensing_the_disk_is_the_same_on_both_sides_of_the_horizon() {
-    use lensrunner::render::method::Method;
+    use lensrunner::lensing::methods::flat;
     let size = [96, 54];
-    let straight = Settings { method: Method::Flat, ..settings() };
+    let straight = Settings { method: flat::METHOD, ..settings() };
     let picture = |renderer: &mut Renderer, l: f64| {
         let position = DVec3::new(0.0, -l, 0.3 * l);
         let camera = Observer { position, momentum: DVec3::ZERO, ..camera(20.0, 70.0, 90f64.to_radians()) };

@@ -1,27 +1,18 @@
 //! The methods that the chart sets beside the game's: what they answer where there is no light, and how near they come.
 
 use lensrunner::lensing::methods::{Exact, Flat, Projector, Query, Table};
-use lensrunner::lensing::{Scheme, Slice, bake, lens_lookup_at, score};
+use lensrunner::lensing::{Slice, lens_lookup_at, score};
 use lensrunner::spacetime::light::{Branch, Order};
-use lensrunner_lab::projection::methods::{Approximation, Batch, Integrate, Paper, PaperBatch, lens_lookup_batch};
+use lensrunner_lab::projection::methods::{Approximation, Batch, Integrate, catalogue, lens_lookup_batch};
 use rand::SeedableRng;
 
-use crate::projector::{does_not_jump_on_the_fall, says_where_no_ray_is};
+use crate::projector::{does_not_jump_on_the_fall, says_where_no_ray_is, small};
 use crate::support::table;
 
 #[test]
 fn no_ray_is_said_by_every_peer() {
-    let paper = bake(Scheme::Paper, 8, |_| ());
-    let all: [(&str, &dyn Projector); 6] = [
-        ("batch", &Batch(Table(table().clone()))),
-        ("paper batch", &PaperBatch(Paper(paper.clone()))),
-        ("paper", &Paper(paper)),
-        ("rk4", &Integrate { steps: 16 }),
-        ("beloborodov", &Approximation::Beloborodov),
-        ("poutanen", &Approximation::Poutanen),
-    ];
-    for (name, method) in all {
-        says_where_no_ray_is(name, method);
+    for entry in catalogue() {
+        says_where_no_ray_is(entry.name, entry.made(&small).expect("it is made").as_ref());
     }
 }
 

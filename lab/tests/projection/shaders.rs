@@ -3,11 +3,10 @@
 use std::sync::Arc;
 
 use lensrunner::lensing::lookup::{OLD, YOUNG, lens_lookup_aged};
-use lensrunner::lensing::methods::{Exact, Projector, Query};
+use lensrunner::lensing::methods::{Exact, Method, Projector, Query, exact, flat, paper};
 use lensrunner::lensing::{Scheme, Slice, bake};
-use lensrunner::render::method::Method;
 use lensrunner::spacetime::light::{Branch, Order};
-use lensrunner_lab::projection::methods::{CATALOGUE, Paper};
+use lensrunner_lab::projection::methods::Paper;
 use lensrunner_lab::projection::race::Race;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -54,7 +53,7 @@ fn the_table_is_the_same_in_both_languages() {
         let rows = rows(l, &mut random);
         let slice = Slice::new(table(), l);
         let (mut seen, mut off) = (0, 0);
-        for (row, [a, b]) in rows.iter().zip(race.look_up(Method::Table, l, &rows).unwrap()) {
+        for (row, [a, b]) in rows.iter().zip(race.look_up(Method::default(), l, &rows).unwrap()) {
             let [along, across, height, code] = *row;
             let want = lens_lookup_aged(&slice, along, across, height, code as u32 % 4, if code >= 4.0 { OLD } else { YOUNG });
             if (a[3] == 1.0) != want.valid {
@@ -81,7 +80,7 @@ fn the_exact_method_is_exact() {
     for l in [0.3, 1.02, 1.5, 6.0, 900.0] {
         let rows = rows(l, &mut random);
         let (mut seen, mut off) = (0, 0);
-        for (row, [a, _]) in rows.iter().zip(race.look_up(Method::Exact, l, &rows).unwrap()) {
+        for (row, [a, _]) in rows.iter().zip(race.look_up(exact::METHOD, l, &rows).unwrap()) {
             let query = query(*row, l);
             if query.r <= 1.0 {
                 continue;
@@ -106,7 +105,7 @@ fn the_exact_method_is_exact() {
 fn the_flat_method_goes_straight() {
     let mut race = Race::new(&GPU, shared_table());
     let rows = rows(6.0, &mut StdRng::seed_from_u64(4));
-    for (row, [a, _]) in rows.iter().zip(race.look_up(Method::Flat, 6.0, &rows).unwrap()) {
+    for (row, [a, _]) in rows.iter().zip(race.look_up(flat::METHOD, 6.0, &rows).unwrap()) {
         let distance = row[0].hypot(row[1]);
         assert_eq!(a[3] == 1.0, row[3] as u32 % 4 == 1, "{row:?}");
         if a[3] == 1.0 {
@@ -121,13 +120,13 @@ fn the_flat_method_goes_straight() {
 fn paper_ones_fetch_is_the_same_on_both() {
     let table = bake(Scheme::Paper, 12, |_| ());
     let mut race = Race::new(&GPU, shared_table());
-    race.tables().set_paper(Arc::new(table.clone()));
+    race.tables().set(paper::METHOD, Arc::new(table.clone()));
     let paper = Paper(table);
     let mut random = StdRng::seed_from_u64(5);
     for l in [1.05, 6.0, 900.0] {
         let rows = rows(l, &mut random);
         let mut seen = 0;
-        for (row, [a, _]) in rows.iter().zip(race.look_up(Method::Paper1, l, &rows).unwrap()) {
+        for (row, [a, _]) in rows.iter().zip(race.look_up(paper::METHOD, l, &rows).unwrap()) {
             let order = row[3] as u8 % 4;
             let query = query(*row, l);
             let Some(want) = paper.project(query, Order::new(order).unwrap(), Branch::Plus) else { continue };
@@ -139,18 +138,6 @@ fn paper_ones_fetch_is_the_same_on_both() {
         }
         assert!(seen > 800, "{seen} at {l}");
     }
-}
-
-/// What `game.toml` may say is what there is.
-#[test]
-fn every_name_is_a_method() {
-    let names: Vec<&str> = Method::all().map(Method::name).collect();
-    assert_eq!(names, lensrunner::scene::METHODS);
-    assert!(Method::all().all(|method| Method::named(method.name()) == Some(method)));
-    // `project` has the same, and the chart has them too.
-    assert_eq!(names, lensrunner::lensing::methods::CATALOGUE.map(|(name, ..)| name));
-    assert!(names.iter().all(|name| CATALOGUE.iter().any(|entry| entry.name == *name)));
-    assert_eq!(Method::named("exakt"), None);
 }
 
 /// The chart's rows of the adapter: every method takes part, the table is under half a pixel on it too.

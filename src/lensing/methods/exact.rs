@@ -1,7 +1,19 @@
 //! The closed form of `spacetime::light`.
 
-use super::{Projector, Query, Sight, sight};
+use super::{Method, Projector, Query, Sight, sight};
 use crate::spacetime::light::{self, Branch, Order};
+
+/// The method.
+pub const METHOD: Method = Method {
+    name: "exact",
+    about: "the ray in closed form (elliptic functions), f64, solved for each point",
+    make: |_| Box::new(Exact),
+    shader: ("shaders/method/exact.wgsl", include_str!("../../../shaders/method/exact.wgsl")),
+    table: None,
+    orders: 3,
+    bends: true,
+    is_exact: true,
+};
 
 /// The ray through elliptic functions in f64, solved for each point to the last digits.
 pub struct Exact;

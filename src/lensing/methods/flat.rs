@@ -1,7 +1,19 @@
 //! No hole.
 
-use super::{Projector, Query, Sight};
+use super::{Method, Projector, Query, Sight};
 use crate::spacetime::light::{Branch, Order};
+
+/// The method.
+pub const METHOD: Method = Method {
+    name: "flat",
+    about: "straight lines",
+    make: |_| Box::new(Flat),
+    shader: ("shaders/method/flat.wgsl", include_str!("../../../shaders/method/flat.wgsl")),
+    table: None,
+    orders: 1,
+    bends: false,
+    is_exact: false,
+};
 
 /// Light goes straight: the angle of flat space for a static camera, in the rain frame where nothing is static.
 pub struct Flat;

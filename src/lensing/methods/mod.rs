@@ -1,9 +1,11 @@
-//! The methods of projection, each by its name: what `project --method` chooses from.
+//! The methods of projection, a file each: what `project --method` and `render.method` of `game.toml` choose from by name.
 
-mod exact;
-mod flat;
+pub mod exact;
+pub mod flat;
 pub mod paper;
 pub mod table;
+
+use std::fmt;
 
 use crate::lensing::{self, Scheme, TableError};
 use crate::spacetime::light::{self, Branch, Order};
@@ -79,29 +81,72 @@ pub fn rain_from_static(psi: f64, l: f64) -> f64 {
     2.0 * ((0.5 * psi).sin() * ((1.0 + beta) / (1.0 - beta)).sqrt()).atan2((0.5 * psi).cos())
 }
 
-/// A method: its name, what it does in a few words, and how it is made.
-pub type Entry = (&'static str, &'static str, fn() -> Box<dyn Projector>);
+/// Every method, the game's own first.
+pub const METHODS: [Method; 4] = [table::METHOD, exact::METHOD, paper::METHOD, flat::METHOD];
 
-/// Every method. Tables that are not there yet are baked as the method is made, which stderr is told of, and kept beside the committed one.
-pub const CATALOGUE: [Entry; 4] = [
-    ("table", "what the game draws with: the residual table, sliced at the camera's radius for a frame, cubic, f32", || {
-        Box::new(Table(lensing::default_table()))
-    }),
-    ("exact", "the ray in closed form (elliptic functions), f64, solved for each point", || Box::new(Exact)),
-    ("paper1-128", "the tables of Yamashita 2012, ψ(r, φ, L) on its optimised meshes, trilinear, 128 nodes an axis", || {
-        Box::new(Paper(filed("paper-128.lut", Scheme::Paper, 128)))
-    }),
-    ("flat", "straight lines", || Box::new(Flat)),
-];
+/// Their names, in the same order.
+pub const NAMES: [&str; METHODS.len()] = {
+    let mut names = [""; METHODS.len()];
+    let mut k = 0;
+    while k < names.len() {
+        names[k] = METHODS[k].name;
+        k += 1;
+    }
+    names
+};
 
-/// The methods' names, for a person to choose from.
-pub fn names() -> String {
-    CATALOGUE.map(|(name, ..)| name).join(", ")
+/// A method of projection, as its file describes it.
+#[derive(Clone, Copy)]
+pub struct Method {
+    /// Its name, on the command line and in `game.toml`.
+    pub name: &'static str,
+    /// What it does, in a few words.
+    pub about: &'static str,
+    /// Makes it, with the tables that it is given for a scheme and a number of nodes.
+    pub make: fn(Load) -> Box<dyn Projector>,
+    /// The same on the GPU: the file of `shaders/method/` and its text.
+    pub shader: (&'static str, &'static str),
+    /// The table that this looks up beside the constants of the camera: its scheme, and nodes along each axis.
+    pub table: Option<(Scheme, usize)>,
+    /// How many orders of images it knows.
+    pub orders: u32,
+    /// Whether light bends: else there is one image of each thing, and what hovers is at rest.
+    pub bends: bool,
+    /// Whether its images lie within the exact bounds, outside of which triangles are left out.
+    pub is_exact: bool,
+}
+
+/// Where a method gets its table from, by scheme and nodes: [`filed`].
+pub type Load<'a> = &'a dyn Fn(Scheme, usize) -> lensing::Table;
+
+impl Method {
+    /// The method, made. Tables that are not there yet are baked, which stderr is told of, and kept beside the committed one.
+    pub fn made(&self) -> Box<dyn Projector> {
+        (self.make)(&filed)
+    }
+}
+
+impl Default for Method {
+    fn default() -> Method {
+        METHODS[0]
+    }
+}
+
+impl PartialEq for Method {
+    fn eq(&self, other: &Method) -> bool {
+        self.name == other.name
+    }
+}
+
+impl fmt::Debug for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
 }
 
 /// One line for each method.
 pub fn help() -> String {
-    let lines = CATALOGUE.map(|(name, about, _)| format!("{name:12} {about}"));
+    let lines = METHODS.map(|method| format!("{:12} {}", method.name, method.about));
     format!(
         "Methods:\n  {}\n\nTables answer cameras at 0.05 to 5,000 r_s and points at 1.0005 to 10,000 r_s (those of Yamashita 2012 \
          from 1.01), and leave fields empty beyond.",
@@ -109,13 +154,17 @@ pub fn help() -> String {
     )
 }
 
-/// The method called `name`, made, or None.
-pub fn named(name: &str) -> Option<Box<dyn Projector>> {
-    CATALOGUE.into_iter().find(|(other, ..)| *other == name).map(|(_, _, make)| make())
+/// The method called `name`, or None.
+pub fn named(name: &str) -> Option<Method> {
+    METHODS.into_iter().find(|method| method.name == name)
 }
 
-/// The table of the file `path` beside the committed one, baked and written there if need be, with a progress bar on stderr.
-pub fn filed(path: &str, scheme: Scheme, nodes: usize) -> lensing::Table {
+/// The table of a scheme with so many nodes: the committed one, or one from its file beside that, baked and written there if need be, with a
+/// progress bar on stderr.
+pub fn filed(scheme: Scheme, nodes: usize) -> lensing::Table {
+    if (scheme, nodes) == (Scheme::Residual, lensing::SMALL_NODES) {
+        return lensing::default_table();
+    }
     let bar = std::sync::OnceLock::new();
     let finished = std::sync::Mutex::new(0.0);
     let complain = |wrong: &TableError| match wrong {
@@ -128,7 +177,7 @@ pub fn filed(path: &str, scheme: Scheme, nodes: usize) -> lensing::Table {
             bar.get_or_init(|| indicatif::ProgressBar::new(1000)).set_position(*sum as u64);
         }
     };
-    let table = lensing::load_or_bake(&lensing::table_file(path), scheme, nodes, complain, done);
+    let table = lensing::load_or_bake(&lensing::table_file(scheme, nodes), scheme, nodes, complain, done);
     if let Some(bar) = bar.get() {
         bar.finish_and_clear();
     }

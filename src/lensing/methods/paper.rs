@@ -1,8 +1,22 @@
 //! The tables of Yamashita 2012.
 
-use super::{Projector, Query, Sight};
-use crate::lensing::{Table, paper, paper_format};
+use super::{Method, Projector, Query, Sight};
+use crate::lensing::{Scheme, Table, paper, paper_format};
 use crate::spacetime::light::{Branch, Order};
+
+/// The method.
+pub const METHOD: Method = Method {
+    name: "paper1-128",
+    about: "the tables of Yamashita 2012, ψ(r, φ, L) on its optimised meshes, trilinear, 128 nodes an axis",
+    make: |load| Box::new(Paper(load(Scheme::Paper, NODES))),
+    shader: ("shaders/method/paper1.wgsl", include_str!("../../../shaders/method/paper1.wgsl")),
+    table: Some((Scheme::Paper, NODES)),
+    orders: 2,
+    bends: true,
+    is_exact: false,
+};
+
+const NODES: usize = 128;
 
 /// The four tables of Yamashita 2012.
 pub struct Paper(pub Table);

@@ -1,9 +1,21 @@
 //! The residual table as the game uses it: sliced once a frame, looked up in f32.
 
-use super::{Projector, Query, Sight, Vertex};
+use super::{Method, Projector, Query, Sight, Vertex};
 use crate::lensing::lookup::{OLD, YOUNG, lens_lookup_aged};
-use crate::lensing::{self, LensRay, Slice};
+use crate::lensing::{self, LensRay, SMALL_NODES, Scheme, Slice};
 use crate::spacetime::light::{self, Branch, Order};
+
+/// The method.
+pub const METHOD: Method = Method {
+    name: "table",
+    about: "what the game draws with: the residual table, sliced at the camera's radius for a frame, cubic, f32",
+    make: |load| Box::new(Table(load(Scheme::Residual, SMALL_NODES))),
+    shader: ("shaders/method/table.wgsl", include_str!("../../../shaders/method/table.wgsl")),
+    table: Some((Scheme::Residual, SMALL_NODES)),
+    orders: 3,
+    bends: true,
+    is_exact: true,
+};
 
 /// The lensing table as the GPU evaluates it: a slice at the camera's radius, then the lookup in f32.
 pub struct Table(pub lensing::Table);

@@ -29,7 +29,7 @@ const MOST_BYTES: u64 = 256 << 20;
 const MOST_VALUE: f32 = 1e6;
 
 /// What a table stores.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Scheme {
     /// Residuals against closed forms, as B-spline coefficients: the default.
     Residual,

@@ -22,7 +22,7 @@ pub(super) fn tell(quality: Res<Quality>, mut report: ResMut<QualityReport>) {
     let Some(rung) = quality.rung() else { return };
     let knobs = Knob::ALL.into_iter().zip(rung.steps).map(|(knob, step)| {
         let rest = if step == 0 { "at its finest".to_owned() } else { format!("step {step} of {}", knob.steps() - 1) };
-        (knob.name().to_owned(), knob.says(step), rest)
+        (knob.name.to_owned(), knob.says(step), rest)
     });
     let predicted = |name: &str, value: String, words: &str| (name.to_owned(), value, words.to_owned());
     let told = QualityReport {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use wgpu::BufferUsages;
 
+use crate::lensing::methods::Method;
 use crate::render::Gpu;
 use crate::render::aurora::animation::AuroraFrame;
 use crate::render::aurora::colours::Colours;
@@ -17,7 +18,6 @@ use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::Targets;
 use crate::render::gpu::timing::Timing;
 use crate::render::gpu::types::Instance;
-use crate::render::method::Method;
 use crate::scene::blackbody::xyz_to_rgb;
 
 /// Image orders in which an aurora may be drawn.

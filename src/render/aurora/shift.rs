@@ -51,7 +51,7 @@ impl Shift {
         if !view.settings.doppler && !view.settings.beaming {
             return Some(Shift::even(1.0));
         }
-        let aspect = view.aspect.filter(|_| view.settings.method.bends())?;
+        let aspect = view.aspect.filter(|_| view.settings.method.bends)?;
         let mut began = departure(view, time, history, order)?;
         let away = view.camera.position - history.at(began).position;
         let near = away.length() < NEAR * radius;

@@ -42,7 +42,7 @@ pub fn may_be_seen(view: &View, time: f64, history: &History, order: Order, reac
     let n = camera.position.normalize();
     let off_axis = (middle - n * middle.dot(n)).length();
     // In front of the hole the primary image is no ring.
-    let is_round = view.settings.method.bends() && off_axis < ROUND * reach && (order.number() > 1 || middle.dot(n) < 0.0);
+    let is_round = view.settings.method.bends && off_axis < ROUND * reach && (order.number() > 1 || middle.dot(n) < 0.0);
     let about = if is_round { Some(-n) } else { view.look(middle, order, time - began).map(|(look, _)| look) };
     let Some(about) = about.map(|look| camera.seen_direction(look)) else { return true };
     if cone_may_be_seen(camera, about, 0.0, aspect) {

@@ -106,7 +106,7 @@ impl DiskPasses {
 
     /// Uploads what the frame needs; `view` is that of the disk in a picture `width` pixels wide.
     pub fn prepare(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, input: &FrameInput, mut view: DiskView, width: u32) {
-        self.is_straight = !input.settings.method.bends();
+        self.is_straight = !input.settings.method.bends;
         if self.is_straight && self.straight.is_none() {
             let radial = storage(gpu, "radial", &self.disk.radial_table());
             let mut polygons = PolygonPass::new(gpu, frame_layout, &self.gas_layout, radial, &self.disk, false);

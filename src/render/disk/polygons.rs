@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 use wgpu::{BufferUsages, ShaderStages};
 
+use crate::lensing::methods::Method;
 use crate::render::Gpu;
 use crate::render::frame::FrameInput;
 use crate::render::geometry::Geometry;
@@ -17,7 +18,6 @@ use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::types::placed::{HELD, TWO_SIDED};
 use crate::render::gpu::types::{ARGUMENTS_OPAQUE, Instance};
 use crate::render::instances::{Placed, place_by_axis};
-use crate::render::method::Method;
 use crate::render::models::{ModelRange, ModelSet, Models};
 use crate::scene::disk::polygons::{Ring, model, rings};
 
@@ -111,7 +111,7 @@ impl PolygonPass {
 
     /// Uploads what the frame needs, for a picture `width` pixels wide.
     pub fn prepare(&mut self, gpu: &Gpu, input: &FrameInput, width: u32) {
-        let bends = input.settings.method.bends();
+        let bends = input.settings.method.bends;
         let height = if bends { beside_the_axis(&input.camera, width, self.extent) } else { 0.0 };
         let p = height * DVec3::Z - input.camera.position;
         // T − T₀: about the time that light takes from the hole's surroundings.
@@ -133,7 +133,7 @@ impl PolygonPass {
         place_by_axis(&mut unplaced, &input.camera, height * DVec3::Z, self.extent[1] + elapsed);
         let mut placed = Vec::new();
         let mut turning = Vec::new();
-        for order in 1..=input.settings.orders.min(input.settings.method.orders()).min(3) {
+        for order in 1..=input.settings.orders.min(input.settings.method.orders).min(3) {
             for part in &self.parts {
                 let azimuth = part.rate.map_or(0.0, |rate| (rate * (input.time - elapsed)).rem_euclid(TAU));
                 let [inner, outer] = part.rims.map(|rim| rim.map_or(-1.0, |radius| radius as f32));

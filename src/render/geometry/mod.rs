@@ -15,13 +15,13 @@ use ground::GroundBuffers;
 use lists::BodyLists;
 use stages::{PipelineCache, PipelineInputs};
 
+use crate::lensing::methods::Method;
 use crate::render::Gpu;
 use crate::render::aurora::ground::GroundFrame;
 use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTexture, bind, buffer, layout, module, raster_of};
 use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::types::{self, Capacity, Counters, SeenVertex};
-use crate::render::method::Method;
 use crate::render::models::Models;
 
 /// Passes of splitting: one for each depth, and one for those at the last depth.

@@ -5,10 +5,10 @@
 use std::sync::Arc;
 use std::thread::JoinHandle;
 
+use crate::lensing::methods::Method;
 use crate::render::gpu::layout::compute_of;
 use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::shaders::Pass;
-use crate::render::method::Method;
 
 /// A method of projection, and whether the camera is inside the horizon.
 pub(super) type Side = (Method, bool);

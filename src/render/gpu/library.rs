@@ -11,7 +11,7 @@ use thiserror::Error;
 use wgpu::naga::Module;
 use wgpu::naga::valid::Capabilities;
 
-use crate::render::method::Method;
+use crate::lensing::methods::Method;
 
 /// A file of shaders: its path in the repository, and its text.
 pub type File = (&'static str, &'static str);
@@ -107,7 +107,7 @@ fn import_path((_, source): File) -> &'static str {
 
 /// All modules by their import paths, each after those that it imports.
 fn modules(worldlines: Worldlines, method: Method) -> Vec<(&'static str, File)> {
-    let [method, held] = method.files();
+    let held = if method.bends { file!("method/held.wgsl") } else { file!("method/at_rest.wgsl") };
     let worldlines = match worldlines {
         Worldlines::Bodies => file!("instances/recorded.wgsl"),
         Worldlines::Even => file!("instances/even.wgsl"),
@@ -126,7 +126,7 @@ fn modules(worldlines: Worldlines, method: Method) -> Vec<(&'static str, File)> 
         own(file!("lensing/orbit.wgsl")),
         own(file!("lensing/exact.wgsl")),
         own(file!("lensing/static_ray.wgsl")),
-        ("lensrunner::chosen::method", method),
+        ("lensrunner::chosen::method", method.shader),
         ("lensrunner::chosen::held", held),
         own(file!("instances/instance.wgsl")),
         own(file!("instances/swing.wgsl")),
@@ -167,12 +167,13 @@ fn modules(worldlines: Worldlines, method: Method) -> Vec<(&'static str, File)> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lensing::methods::flat;
 
     const VALUES: Values = Values { inside: true, data_group: 1 };
     const BROKEN: File = ("shaders/broken.wgsl", "#define_import_path lensrunner::broken\n\nfn wrong() -> u32 {\n    return nothing;\n}\n");
 
     fn error(others: &[File], source: &str) -> String {
-        let library = Library::new(Worldlines::Bodies, Method::Table, others);
+        let library = Library::new(Worldlines::Bodies, Method::default(), others);
         library.and_then(|mut library| library.compose("shaders/pass.wgsl", source, VALUES)).unwrap_err().to_string()
     }
 
@@ -200,7 +201,7 @@ mod tests {
     /// A module is imported by its place in the folder.
     #[test]
     fn import_paths_are_places() {
-        for (path, file) in modules(Worldlines::Bodies, Method::Flat) {
+        for (path, file) in modules(Worldlines::Bodies, flat::METHOD) {
             let place = file.0.replace("shaders/", "lensrunner/").replace(".wgsl", "").replace('/', "::");
             assert_eq!(import_path(file), place);
             assert!(path == place || path.starts_with("lensrunner::chosen::"), "{path}");

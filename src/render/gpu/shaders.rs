@@ -6,130 +6,110 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 
 use wgpu::naga::Module;
 
+use crate::lensing::methods::Method;
 use crate::render::gpu::library::{File, Library, Values, Worldlines, file};
-use crate::render::method::Method;
 
-/// The libraries that passes have been composed from. One for each choice, so that its modules are worked out once.
-static LIBRARIES: LazyLock<Mutex<HashMap<(Worldlines, Method), Library>>> = LazyLock::new(Default::default);
+/// The libraries that passes have been composed from. One for each choice of worldlines and method, so that its modules are worked out once.
+static LIBRARIES: LazyLock<Mutex<HashMap<(Worldlines, &str), Library>>> = LazyLock::new(Default::default);
 
-/// The passes of a frame, by the file that holds their entry points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Pass {
+macro_rules! passes {
+    ($(#[$about:meta] $pass:ident: $file:literal,)*) => {
+        /// The passes of a frame, by the file that holds their entry points.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Pass {
+            $(#[$about] $pass,)*
+        }
+
+        impl Pass {
+            /// All passes.
+            pub const ALL: [Pass; [$($file),*].len()] = [$(Pass::$pass),*];
+
+            /// The file that holds the entry points.
+            fn file(self) -> File {
+                match self {
+                    $(Pass::$pass => file!($file),)*
+                }
+            }
+        }
+    };
+}
+
+passes! {
     /// Projects the model vertices.
-    Vertices,
+    Vertices: "geometry/vertices.wgsl",
     /// Measures the model edges.
-    Edges,
+    Edges: "geometry/edges.wgsl",
     /// The object stage.
-    Triangles,
+    Triangles: "geometry/triangles.wgsl",
     /// Splits pieces.
-    Refine,
+    Refine: "geometry/refine.wgsl",
     /// Turns counts into indirect arguments.
-    Arguments,
+    Arguments: "geometry/arguments.wgsl",
     /// The mesh stage.
-    Mesh,
+    Mesh: "geometry/mesh.wgsl",
     /// Lists thin triangles and their tiles.
-    ThinLists,
+    ThinLists: "geometry/thin_lists.wgsl",
     /// Rasterises.
-    Draw,
+    Draw: "shading/draw.wgsl",
     /// Works the sky out at the corners of cells.
-    SkyCells,
+    SkyCells: "sky/cells.wgsl",
     /// The sky behind everything.
-    Background,
+    Background: "sky/background.wgsl",
     /// Projects stars.
-    StarsProject,
+    StarsProject: "sky/stars_project.wgsl",
     /// Draws stars.
-    StarsDraw,
+    StarsDraw: "sky/stars_draw.wgsl",
     /// Projects places amid the parts of the aurora's curtains.
-    AuroraProject,
+    AuroraProject: "aurora/project.wgsl",
     /// The ends of each streak's chords.
-    AuroraEnds,
+    AuroraEnds: "aurora/ends.wgsl",
     /// The depths of what is drawn, by tiles.
-    AuroraRanges,
+    AuroraRanges: "aurora/levels/ranges.wgsl",
     /// Walks between the ends of chords.
-    AuroraWalk,
+    AuroraWalk: "aurora/walk.wgsl",
     /// Adds up the aurora's light.
-    AuroraDraw,
+    AuroraDraw: "aurora/draw.wgsl",
     /// Enlarges a coarse picture of it into the next finer one.
-    AuroraSpread,
+    AuroraSpread: "aurora/levels/spread.wgsl",
     /// Makes the finest picture of it black where there will be light.
-    AuroraWipe,
+    AuroraWipe: "aurora/levels/wipe.wgsl",
     /// Makes it a colour.
-    AuroraResolve,
+    AuroraResolve: "aurora/levels/resolve.wgsl",
     /// Lays thin triangles over the picture.
-    Compose,
+    Compose: "post_process/compose.wgsl",
     /// Halves and doubles the picture.
-    Bloom,
+    Bloom: "post_process/bloom.wgsl",
     /// Meters the light.
-    Exposure,
+    Exposure: "post_process/exposure.wgsl",
     /// Measures the brightness of the whole picture.
-    Flashes,
+    Flashes: "post_process/flashes.wgsl",
     /// Exposes, blooms, encodes.
-    ToneMap,
+    ToneMap: "post_process/tone_map.wgsl",
     /// Finds the tiles with outlines of bodies.
-    Outlines,
+    Outlines: "post_process/outlines.wgsl",
     /// Smooths them.
-    Smooth,
+    Smooth: "post_process/smooth.wgsl",
     /// Enlarges a picture that was drawn smaller than the output.
-    Upscale,
+    Upscale: "post_process/upscale.wgsl",
     /// Projects the places of the disk's arcs, and those that halving asks for.
-    DiskVertices,
+    DiskVertices: "disk/arcs/vertices.wgsl",
     /// Decides how often arcs are halved.
-    DiskSegments,
+    DiskSegments: "disk/arcs/segments.wgsl",
     /// Joins the arcs' points by triangles.
-    DiskStrips,
+    DiskStrips: "disk/arcs/strips.wgsl",
     /// Turns the disk's counts into indirect arguments.
-    DiskArguments,
+    DiskArguments: "disk/arcs/arguments.wgsl",
     /// Rasterises the disk.
-    DiskDraw,
+    DiskDraw: "disk/arcs/draw.wgsl",
     /// Rasterises the disk of polygons.
-    DiskPolygons,
+    DiskPolygons: "disk/polygons.wgsl",
     /// Projects the disk's sprites.
-    DiskSprites,
+    DiskSprites: "disk/sprites.wgsl",
     /// Draws the disk's sprites.
-    DiskSpritesDraw,
+    DiskSpritesDraw: "disk/sprites_draw.wgsl",
 }
 
 impl Pass {
-    /// All passes.
-    pub const ALL: [Pass; 36] = [
-        Pass::Vertices,
-        Pass::Edges,
-        Pass::Triangles,
-        Pass::Refine,
-        Pass::Arguments,
-        Pass::Mesh,
-        Pass::ThinLists,
-        Pass::Draw,
-        Pass::SkyCells,
-        Pass::Background,
-        Pass::StarsProject,
-        Pass::StarsDraw,
-        Pass::AuroraProject,
-        Pass::AuroraEnds,
-        Pass::AuroraRanges,
-        Pass::AuroraWalk,
-        Pass::AuroraDraw,
-        Pass::AuroraSpread,
-        Pass::AuroraWipe,
-        Pass::AuroraResolve,
-        Pass::Compose,
-        Pass::Bloom,
-        Pass::Exposure,
-        Pass::Flashes,
-        Pass::ToneMap,
-        Pass::Outlines,
-        Pass::Smooth,
-        Pass::Upscale,
-        Pass::DiskVertices,
-        Pass::DiskSegments,
-        Pass::DiskStrips,
-        Pass::DiskArguments,
-        Pass::DiskDraw,
-        Pass::DiskPolygons,
-        Pass::DiskSprites,
-        Pass::DiskSpritesDraw,
-    ];
-
     /// The shader of the pass.
     pub fn module(self) -> Module {
         self.module_by(Method::default(), true)
@@ -166,7 +146,7 @@ impl Pass {
         let worldlines = if self.worldlines() == Worldlines::Even { Worldlines::Even } else { worldlines };
         let values = Values { inside: inside && self.may_be_inside(), data_group: if self.draws_data() { 2 } else { 1 } };
         let mut libraries = LIBRARIES.lock().unwrap_or_else(PoisonError::into_inner);
-        let composed = match libraries.entry((worldlines, method)) {
+        let composed = match libraries.entry((worldlines, method.name)) {
             Entry::Occupied(library) => library.into_mut().compose(path, &[source, more].concat(), values),
             Entry::Vacant(place) => Library::new(worldlines, method, &[])
                 .and_then(|library| place.insert(library).compose(path, &[source, more].concat(), values)),
@@ -182,47 +162,5 @@ impl Pass {
     /// Whether instances, or the numbers of the disk, are in the group of images.
     fn draws_data(self) -> bool {
         matches!(self, Pass::Draw | Pass::DiskDraw | Pass::DiskPolygons | Pass::DiskSprites)
-    }
-
-    /// The file that holds the entry points.
-    fn file(self) -> File {
-        match self {
-            Pass::Vertices => file!("geometry/vertices.wgsl"),
-            Pass::Edges => file!("geometry/edges.wgsl"),
-            Pass::Triangles => file!("geometry/triangles.wgsl"),
-            Pass::Refine => file!("geometry/refine.wgsl"),
-            Pass::Arguments => file!("geometry/arguments.wgsl"),
-            Pass::Mesh => file!("geometry/mesh.wgsl"),
-            Pass::ThinLists => file!("geometry/thin_lists.wgsl"),
-            Pass::Draw => file!("shading/draw.wgsl"),
-            Pass::SkyCells => file!("sky/cells.wgsl"),
-            Pass::Background => file!("sky/background.wgsl"),
-            Pass::StarsProject => file!("sky/stars_project.wgsl"),
-            Pass::StarsDraw => file!("sky/stars_draw.wgsl"),
-            Pass::AuroraProject => file!("aurora/project.wgsl"),
-            Pass::AuroraEnds => file!("aurora/ends.wgsl"),
-            Pass::AuroraRanges => file!("aurora/levels/ranges.wgsl"),
-            Pass::AuroraWalk => file!("aurora/walk.wgsl"),
-            Pass::AuroraDraw => file!("aurora/draw.wgsl"),
-            Pass::AuroraSpread => file!("aurora/levels/spread.wgsl"),
-            Pass::AuroraWipe => file!("aurora/levels/wipe.wgsl"),
-            Pass::AuroraResolve => file!("aurora/levels/resolve.wgsl"),
-            Pass::Compose => file!("post_process/compose.wgsl"),
-            Pass::Bloom => file!("post_process/bloom.wgsl"),
-            Pass::Exposure => file!("post_process/exposure.wgsl"),
-            Pass::Flashes => file!("post_process/flashes.wgsl"),
-            Pass::ToneMap => file!("post_process/tone_map.wgsl"),
-            Pass::Outlines => file!("post_process/outlines.wgsl"),
-            Pass::Smooth => file!("post_process/smooth.wgsl"),
-            Pass::Upscale => file!("post_process/upscale.wgsl"),
-            Pass::DiskVertices => file!("disk/arcs/vertices.wgsl"),
-            Pass::DiskSegments => file!("disk/arcs/segments.wgsl"),
-            Pass::DiskStrips => file!("disk/arcs/strips.wgsl"),
-            Pass::DiskArguments => file!("disk/arcs/arguments.wgsl"),
-            Pass::DiskDraw => file!("disk/arcs/draw.wgsl"),
-            Pass::DiskPolygons => file!("disk/polygons.wgsl"),
-            Pass::DiskSprites => file!("disk/sprites.wgsl"),
-            Pass::DiskSpritesDraw => file!("disk/sprites_draw.wgsl"),
-        }
     }
 }

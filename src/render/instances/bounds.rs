@@ -13,7 +13,6 @@ use crate::spacetime::light::Order;
 
 use crate::render::gpu::types::Cap;
 use crate::render::instances::view::{Extent, MARGIN, View};
-use crate::render::method::Method;
 
 /// The caps of an [`Instance`](crate::render::gpu::types::Instance).
 pub type ImageBounds = [Cap; 3];
@@ -38,8 +37,7 @@ impl View<'_> {
         let camera = self.camera;
         let radius = LARGER * longer * reach;
         // Approximate methods draw images outside of their exact bounds.
-        let exact = matches!(self.settings.method, Method::Table | Method::Exact);
-        if !exact
+        if !self.settings.method.is_exact
             || !radius.is_finite()
             || camera.radius() < 1.0
             || position.length() < radius

@@ -1,7 +1,6 @@
 //! When the light left by which a body is seen, as the settings ask for it.
 
 use crate::render::instances::view::View;
-use crate::render::method::Method;
 use crate::render::settings::Settings;
 use crate::sim::History;
 use crate::sim::sight::{emission_time, leaving};
@@ -12,7 +11,7 @@ use crate::spacetime::light::Order;
 pub fn departure(view: &View, time: f64, history: &History, order: Order) -> Option<f64> {
     match view.settings {
         Settings { light_delay: false, .. } => Some(time),
-        Settings { method: Method::Flat, .. } => flat_emission_time(view.camera, time, history),
+        Settings { method, .. } if !method.bends => flat_emission_time(view.camera, time, history),
         _ => emission_time(view.camera, time, history, order),
     }
 }

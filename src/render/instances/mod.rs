@@ -144,7 +144,7 @@ pub fn instances_of(view: &View, time: f64, object: &DrawnObject, orders: u32) -
         // From within a body its inner side is seen. With straight light the direction in which light leaves does not agree with the shape
         // on the slice.
         let within = position.distance(camera.position) < object.reach;
-        if within || !settings.method.bends() {
+        if within || !settings.method.bends {
             instance.flags |= TWO_SIDED;
         }
         if branch == Branch::Minus {
@@ -166,11 +166,11 @@ pub fn instances_of(view: &View, time: f64, object: &DrawnObject, orders: u32) -
         Some(Placed { model, instance, nodes, calmed })
     };
     let folded = match object.motion {
-        Motion::Held { position, .. } => camera.radius() < 1.0 && position.length() - object.reach < 1.0 && settings.method.bends(),
+        Motion::Held { position, .. } => camera.radius() < 1.0 && position.length() - object.reach < 1.0 && settings.method.bends,
         Motion::Flying(_) => false,
     };
     let second = folded.then(|| image(Order::ALL[0], Branch::Minus)).flatten();
-    let orders = orders.min(settings.method.orders());
+    let orders = orders.min(settings.method.orders);
     Order::ALL.into_iter().take(orders as usize).filter_map(|order| image(order, Branch::Plus)).chain(second).collect()
 }
 
@@ -315,7 +315,7 @@ fn flying(
     let out = DrawnOut::of(camera, &sample, object.reach, order, time - emission);
     let still = !view.settings.light_delay;
     let p = sample.momentum;
-    let momentum = if view.settings.method.bends() { sample.momentum } else { against_static(sample.position, sample.momentum) };
+    let momentum = if view.settings.method.bends { sample.momentum } else { against_static(sample.position, sample.momentum) };
     let [shape_x, shape_y, shape_z] = columns(contraction(p) * turn * object.scale);
     let [turn_x, turn_y, turn_z] = columns(turn);
     let instance = Instance {

@@ -67,7 +67,7 @@ impl View<'_> {
     /// The angle ψ from outwards at which a position is seen, and the length of the light's path. The position is given by its distance
     /// outward of the camera, its distance from the axis, and its height along the axis from the hole.
     pub(in crate::render) fn angle(&self, [along, across, height]: [f64; 3], order: Order, age: f64) -> Option<(f64, f64)> {
-        if !self.settings.method.bends() {
+        if !self.settings.method.bends {
             return Some((across.atan2(along), along.hypot(across)));
         }
         let [along, across, height] = [along, across, height].map(|x| x as f32);

@@ -2,151 +2,135 @@
 
 use crate::render::settings::Settings;
 
-/// Something that can be drawn with less. Step 0 is as configured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Knob {
-    /// Pixels that are drawn.
-    Resolution,
-    /// Allowed error of points.
-    PixelError,
-    /// Width from which images of bodies of order 2 and 3 are drawn.
-    SecondImages,
-    /// Width of the rings of the disk, by their error.
-    Rings,
-    /// Positions along a pixel at which a camera close to the disk looks gas up.
-    Gas,
-    /// Streaks of the aurora.
-    Streaks,
-    /// Stars, down to which light.
-    Stars,
-    /// Smooth outlines.
-    Outlines,
-    /// Light spread by the lens.
-    Bloom,
+/// Something that can be drawn with less.
+#[derive(Clone, Copy, Debug)]
+pub struct Knob {
+    /// Its name in tables.
+    pub name: &'static str,
+    /// Whether what it saves is done pixel by pixel.
+    pub is_by_pixel: bool,
+    /// The value of each step; step 0 is as configured.
+    values: &'static [f32],
+    /// What a value is, in words.
+    words: fn(f32) -> String,
+    /// Puts a value into the settings.
+    set: fn(&mut Settings, f32),
 }
 
 /// The step of each knob, in the order of [`Knob::ALL`].
 pub type Steps = [u8; Knob::ALL.len()];
 
-/// Share of the width and height that is drawn.
-const RESOLUTIONS: [f32; 8] = [1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.33, 0.25];
 /// Standard deviation of the narrowest spots of stars, in drawn pixels: as they move their light, sampled at pixel centres, changes by up to
 /// 4 % (twice its transform at the sampling frequency, e^{−2π²·0.45²}).
 const LEAST_SIGMA: f32 = 0.45;
-/// Factors on the allowed error of a point.
-const PIXEL_ERRORS: [f32; 4] = [1.0, 2.0, 4.0, 8.0];
-/// Width in drawn pixels from which images of bodies of order 2 and 3 are drawn, but no less than configured.
-const LEAST_WIDTHS: [f64; 4] = [0.0, 0.5, 2.0, f64::INFINITY];
-/// Factors on the errors of rings and arcs.
-const RING_ERRORS: [f32; 4] = [1.0, 2.0, 4.0, 8.0];
-/// Most positions along a pixel, but no more than configured.
-const LOOKS: [f32; 4] = [f32::INFINITY, 8.0, 4.0, 1.0];
-/// Shares of the streaks.
-const STREAKS: [f32; 4] = [1.0, 0.5, 0.25, 0.125];
-/// Faintest magnitudes, but none fainter than configured.
-const MAGNITUDES: [f32; 4] = [f32::INFINITY, 8.5, 7.5, 6.5];
 
 impl Knob {
     /// All of them.
     pub const ALL: [Knob; 9] = [
-        Knob::Resolution,
-        Knob::PixelError,
-        Knob::SecondImages,
-        Knob::Rings,
-        Knob::Gas,
-        Knob::Streaks,
-        Knob::Stars,
-        Knob::Outlines,
-        Knob::Bloom,
+        // Share of the width and height that is drawn.
+        Knob {
+            name: "resolution",
+            is_by_pixel: false,
+            values: &[1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.33, 0.25],
+            words: |share| format!("{:.0} % of the width", 100.0 * share),
+            set: |settings, share| {
+                settings.resolution *= share;
+                // Spots of stars stay as wide in the output, as far as they can be sampled.
+                settings.star_sigma = (settings.star_sigma * share).max(LEAST_SIGMA.min(settings.star_sigma));
+            },
+        },
+        // Factor on the allowed error of a point.
+        Knob {
+            name: "pixel error",
+            is_by_pixel: false,
+            values: &[1.0, 2.0, 4.0, 8.0],
+            words: |factor| format!("{factor} times the error"),
+            set: |settings, factor| settings.pixel_error *= factor,
+        },
+        // Width in drawn pixels from which images of bodies of order 2 and 3 are drawn, but no less than configured.
+        Knob {
+            name: "second images",
+            is_by_pixel: false,
+            values: &[0.0, 0.5, 2.0, f32::INFINITY],
+            words: |width| if width.is_finite() { format!("from {width} px on") } else { "of the disk alone".into() },
+            set: |settings, width| settings.least_width = settings.least_width.max(f64::from(width)),
+        },
+        // Factor on the errors of the rings and arcs of the disk.
+        Knob {
+            name: "rings",
+            is_by_pixel: false,
+            values: &[1.0, 2.0, 4.0, 8.0],
+            words: |factor| format!("{factor} times the error"),
+            set: |settings, factor| settings.ring_error *= factor,
+        },
+        // Most positions along a pixel at which a camera close to the disk looks gas up, but no more than configured.
+        Knob {
+            name: "gas",
+            is_by_pixel: true,
+            values: &[f32::INFINITY, 8.0, 4.0, 1.0],
+            words: |looks| format!("{looks} looks in a pixel"),
+            set: |settings, looks| settings.gas_looks = settings.gas_looks.min(looks),
+        },
+        // Share of the streaks of the aurora.
+        Knob {
+            name: "streaks",
+            is_by_pixel: false,
+            values: &[1.0, 0.5, 0.25, 0.125],
+            words: |share| format!("{} % of them", 100.0 * share),
+            set: |settings, share| settings.streaks *= share,
+        },
+        // Faintest magnitude of stars, but none fainter than configured.
+        Knob {
+            name: "stars",
+            is_by_pixel: false,
+            values: &[f32::INFINITY, 8.5, 7.5, 6.5],
+            words: |magnitude| format!("to magnitude {magnitude}"),
+            set: |settings, magnitude| settings.faintest_star = settings.faintest_star.max(10f32.powf(-0.4 * magnitude)),
+        },
+        // Whether outlines are smoothed.
+        Knob {
+            name: "outlines",
+            is_by_pixel: true,
+            values: &[1.0, 0.0],
+            words: |_| "not smoothed".into(),
+            set: |settings, smooth| settings.smooth &= smooth > 0.0,
+        },
+        // Share of the light that the lens spreads.
+        Knob {
+            name: "bloom",
+            is_by_pixel: true,
+            values: &[1.0, 0.0],
+            words: |_| "none".into(),
+            set: |settings, share| settings.bloom *= share,
+        },
     ];
 
-    /// Its name in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Knob::Resolution => "resolution",
-            Knob::PixelError => "pixel error",
-            Knob::SecondImages => "second images",
-            Knob::Rings => "rings",
-            Knob::Gas => "gas",
-            Knob::Streaks => "streaks",
-            Knob::Stars => "stars",
-            Knob::Outlines => "outlines",
-            Knob::Bloom => "bloom",
-        }
+    /// The number of its steps, with step 0.
+    pub fn steps(&self) -> u8 {
+        self.values.len() as u8
     }
 
-    /// The number of its steps, with step 0.
-    pub fn steps(self) -> u8 {
-        match self {
-            Knob::Resolution => RESOLUTIONS.len() as u8,
-            Knob::PixelError => PIXEL_ERRORS.len() as u8,
-            Knob::SecondImages => LEAST_WIDTHS.len() as u8,
-            Knob::Rings => RING_ERRORS.len() as u8,
-            Knob::Gas => LOOKS.len() as u8,
-            Knob::Streaks => STREAKS.len() as u8,
-            Knob::Stars => MAGNITUDES.len() as u8,
-            Knob::Outlines | Knob::Bloom => 2,
-        }
+    /// The value of a step. One beyond the last is the last.
+    fn value(&self, step: u8) -> f32 {
+        self.values[usize::from(step.min(self.steps() - 1))]
     }
 
     /// What a step is, in words.
-    pub fn says(self, step: u8) -> String {
-        if step == 0 {
-            return "as configured".into();
-        }
-        let k = usize::from(step.min(self.steps() - 1));
-        match self {
-            Knob::Resolution => format!("{:.0} % of the width", 100.0 * RESOLUTIONS[k]),
-            Knob::PixelError => format!("{} times the error", PIXEL_ERRORS[k]),
-            Knob::SecondImages if LEAST_WIDTHS[k].is_finite() => format!("from {} px on", LEAST_WIDTHS[k]),
-            Knob::SecondImages => "of the disk alone".into(),
-            Knob::Rings => format!("{} times the error", RING_ERRORS[k]),
-            Knob::Gas => format!("{} looks in a pixel", LOOKS[k]),
-            Knob::Streaks => format!("{} % of them", 100.0 * STREAKS[k]),
-            Knob::Stars => format!("to magnitude {}", MAGNITUDES[k]),
-            Knob::Outlines => "not smoothed".into(),
-            Knob::Bloom => "none".into(),
-        }
+    pub fn says(&self, step: u8) -> String {
+        if step == 0 { "as configured".into() } else { (self.words)(self.value(step)) }
     }
+}
 
-    /// Whether what it saves is done pixel by pixel.
-    pub fn is_by_pixel(self) -> bool {
-        matches!(self, Knob::Gas | Knob::Outlines | Knob::Bloom)
-    }
-
-    /// The share of the pixels that are drawn.
-    pub fn area(steps: Steps) -> f64 {
-        let place = Knob::ALL.iter().position(|knob| *knob == Knob::Resolution).unwrap_or(0);
-        f64::from(RESOLUTIONS[usize::from(steps[place]).min(RESOLUTIONS.len() - 1)]).powi(2)
-    }
-
-    /// Sets it. A step beyond the last is the last.
-    pub fn set(self, step: u8, settings: &mut Settings) {
-        let k = usize::from(step.min(self.steps() - 1));
-        match self {
-            Knob::Resolution => {
-                settings.resolution *= RESOLUTIONS[k];
-                // Spots of stars stay as wide in the output, as far as they can be sampled.
-                settings.star_sigma = (settings.star_sigma * RESOLUTIONS[k]).max(LEAST_SIGMA.min(settings.star_sigma));
-            }
-            Knob::PixelError => settings.pixel_error *= PIXEL_ERRORS[k],
-            Knob::SecondImages => settings.least_width = settings.least_width.max(LEAST_WIDTHS[k]),
-            Knob::Rings => settings.ring_error *= RING_ERRORS[k],
-            Knob::Gas => settings.gas_looks = settings.gas_looks.min(LOOKS[k]),
-            Knob::Streaks => settings.streaks *= STREAKS[k],
-            Knob::Stars => settings.faintest_star = settings.faintest_star.max(10f32.powf(-0.4 * MAGNITUDES[k])),
-            Knob::Outlines => settings.smooth &= k == 0,
-            Knob::Bloom if k > 0 => settings.bloom = 0.0,
-            Knob::Bloom => {}
-        }
-    }
+/// The share of the pixels that are drawn.
+pub fn area(steps: &Steps) -> f64 {
+    f64::from(turned(&Settings::finest(), steps).resolution).powi(2)
 }
 
 /// The settings with every knob at its step.
 pub fn turned(settings: &Settings, steps: &Steps) -> Settings {
     let mut settings = *settings;
     for (knob, step) in Knob::ALL.into_iter().zip(steps) {
-        knob.set(*step, &mut settings);
+        (knob.set)(&mut settings, knob.value(*step));
     }
     settings
 }
@@ -163,7 +147,7 @@ mod tests {
             for step in 1..knob.steps() {
                 let mut steps = [0; Knob::ALL.len()];
                 steps[k] = step;
-                assert_ne!(turned(&settings, &steps), settings, "{} {step}", knob.name());
+                assert_ne!(turned(&settings, &steps), settings, "{} {step}", knob.name);
             }
         }
     }

@@ -4,7 +4,7 @@
 //! Errors of several knobs add up: a bound. Of the time that the others leave, each knob leaves its share; what is done pixel by pixel saves
 //! less where there are fewer pixels. `lab/run chart dial --check` holds both against measurements.
 
-use super::knobs::{Knob, Steps};
+use super::knobs::{Knob, Steps, area};
 use super::prices::{Prices, SceneClass};
 
 /// One rung.
@@ -27,9 +27,9 @@ const LEAST_ERROR: f64 = 0.003;
 impl Rung {
     fn at(prices: &Prices, class: SceneClass, steps: Steps) -> Rung {
         let all = Knob::ALL.into_iter().zip(steps).map(|(knob, step)| (knob, prices.of(class, knob, step)));
-        let area = Knob::area(steps);
+        let area = area(&steps);
         let (error, time) = all.fold((0.0, 1.0), |(error, time), (knob, price)| {
-            let saved = (1.0 - price.time) * if knob.is_by_pixel() { area } else { 1.0 };
+            let saved = (1.0 - price.time) * if knob.is_by_pixel { area } else { 1.0 };
             (error + price.error, time * (1.0 - saved))
         });
         let finest = steps == [0; Knob::ALL.len()];
@@ -39,7 +39,7 @@ impl Rung {
     /// What is not at its finest, in words.
     pub fn says(&self) -> String {
         let turned = Knob::ALL.into_iter().zip(self.steps).filter(|(_, step)| *step > 0);
-        let words: Vec<String> = turned.map(|(knob, step)| format!("{} {}", knob.name(), knob.says(step))).collect();
+        let words: Vec<String> = turned.map(|(knob, step)| format!("{} {}", knob.name, knob.says(step))).collect();
         if words.is_empty() { "everything at its finest".into() } else { words.join(", ") }
     }
 }

@@ -23,6 +23,7 @@ use wgpu::{BufferUsages, ShaderStages};
 use crate::lensing::Table;
 use crate::scene::model::Model;
 
+use crate::lensing::methods::Method;
 use crate::render::Gpu;
 use crate::render::aurora::Aurora;
 use crate::render::disk::types::DiskCounters;
@@ -36,14 +37,13 @@ use crate::render::gpu::readback::{self, DeferredCopy, PictureError};
 use crate::render::gpu::targets::Targets;
 use crate::render::gpu::timing::Timing;
 use crate::render::gpu::types::{self, Counters, Star};
-use crate::render::method::Method;
-use crate::render::method::tables::Tables;
 use crate::render::models::{ModelRange, ModelSet, Models};
 use crate::render::post_process::upscale::Upscale;
 use crate::render::post_process::{Finish, PostProcess};
 use crate::render::sky::clusters::StarClusters;
 use crate::render::sky::table::NODES;
 use crate::render::sky::{Background, Stars};
+use crate::render::tables::Tables;
 use plan::{FramePlan, Slices};
 
 /// What does not change from frame to frame.

@@ -2,12 +2,12 @@
 
 use crate::lensing::Slice;
 
+use crate::lensing::methods::Method;
 use crate::render::disk::view::DiskView;
 use crate::render::geometry::lists::BodyLists;
 use crate::render::gpu::types;
-use crate::render::method::Method;
-use crate::render::method::tables::Tables;
 use crate::render::sky::table::{sky_table, straight_sky_table};
+use crate::render::tables::Tables;
 
 /// A frame that is planned: what is to be uploaded for it.
 #[derive(Debug)]
@@ -49,7 +49,7 @@ impl Slices {
         *self = Slices {
             at: Some((l, method)),
             lens: tables.texels(method, l, &slice),
-            sky: if method.bends() { sky_table(l) } else { straight_sky_table() },
+            sky: if method.bends { sky_table(l) } else { straight_sky_table() },
             slice: Some(slice),
             are_new: true,
         };

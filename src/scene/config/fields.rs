@@ -2,6 +2,7 @@
 //! this the structs, their defaults and the table that the file reader and the dev overlay work from.
 
 use super::setting::{Allowed, Setting, Value};
+use crate::lensing::methods::NAMES;
 
 const fn number(min: f64, max: f64) -> Allowed {
     Allowed::Number { min, max }
@@ -125,9 +126,6 @@ pub const HELD: &[&str] = &[
     "look_at_target",
 ];
 
-/// The methods of projection that the renderer has.
-pub const METHODS: &[&str] = &["table", "exact", "paper1-128", "flat"];
-
 config! {
     /// The hole.
     hole: Hole {
@@ -144,7 +142,7 @@ config! {
     render: Render {
         pixel_error_budget: f64 = 0.5, number(0.05, 16.0), "pixels", "largest displacement allowed when a cheaper model is chosen";
         orders: u32 = 2u32, integer(1, 3), "images", "image orders drawn";
-        method: String = "table", Choice(METHODS), "", "how a vertex is projected";
+        method: String = "table", Choice(&NAMES), "", "how a vertex is projected";
         tessellation_max_level: u32 = 13u32, integer(0, 13), "halvings", "finest subdivision of an edge";
         vertex_budget: u32 = 1_200_000u32, integer(1_000, 2_000_000), "vertices", "room for tessellated vertices in a frame";
         min_width: f64 = 1.0, number(0.0, 4.0), "pixels", "thinner triangles of thin images are drawn this wide, with their coverage as alpha; 0 turns that off";

@@ -18,8 +18,8 @@ use crate::game_files;
 use crate::user_file::{MOST_TEXT, read_text};
 pub use assignment::Assignment;
 pub use fields::{
-    Accessibility, Assist, AuroraConfig, Clock, Controls, Disk, Enemy, GameConfig, HELD, Hole, Interface, METHODS, Render, RulesConfig,
-    ShipConfig, Sky, Sound, Video, setting, settings,
+    Accessibility, Assist, AuroraConfig, Clock, Controls, Disk, Enemy, GameConfig, HELD, Hole, Interface, Render, RulesConfig, ShipConfig,
+    Sky, Sound, Video, setting, settings,
 };
 pub use setting::{Allowed, Setting, Value};
 

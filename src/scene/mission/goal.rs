@@ -2,17 +2,8 @@
 //!
 //! ```toml
 //! [[goal]]
-//! kind = "hold"          # what is to be done, with its own keys:
-//! #   "burn"     amount (Δv in c): use the engine
-//! #   "turn"     angle (radians): turn the ship
-//! #   "coast"    for (r_s/c of T): fly with less than a twentieth of the thrust
-//! #   "look"     ship, angle (radians, 0.2 if absent), for: have its image ahead, or look at it
-//! #   "reach"    radius = [least, most] (r_s), for (0 if absent): be between two radii
-//! #   "hold"     ship, distance (r_s), for (r_s/c of T): stay near a ship; absent: as [rules] say
-//! #   "hit"      ship, times (1 if absent): hit it with bolts
-//! #   "survive"  until (T in r_s/c), radius = [least, most] (any if absent): still be there, and never out of these radii
-//! #   "gates"    fly through every [[gate]] in order
-//! #   "whirl"    turns, radius = [least, most]: go round the hole so often between two radii
+//! kind = "hold"                   # what is to be done, with its own keys: see `KINDS` and docs/scenes.md
+//! ship = "quarry"
 //! text = "Stay with the quarry"   # what the HUD says
 //! hint = "Hold [boost]"           # how, for those who are slow; none if absent. [action]: the button bound to it
 //! before = 100.0                  # T in r_s/c: the mission is lost when this is not done by then; no limit if absent
@@ -20,10 +11,11 @@
 
 use std::ops::Range;
 
-use serde::Deserialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
-use super::{MOST_LETTERS, buttons, ship_named, short};
+use super::{Difficulty, MOST_LETTERS, Mission, buttons, ship_named, short};
 use crate::scene::document::exactly_or_none;
 use crate::scene::document::fault::{Fault, fault, in_range};
 use crate::scene::ship::ShipSpec;
@@ -39,6 +31,45 @@ pub struct Goal {
     pub task: GoalTask,
     /// T in r_s/c by which it must be done; infinite if there is no hurry.
     pub before: f64,
+}
+
+impl Goal {
+    /// Whether it can be reached at all in its mission, on each difficulty, else why not. `before`: its own limit, if it has one.
+    pub(super) fn reachable(&self, mission: &Mission, before: Option<f64>) -> Result<(), String> {
+        let limits = Difficulty::ALL.map(|difficulty| match mission.levels[difficulty as usize].number("rules.time_limit") {
+            Some(limit) => (format!("rules.time_limit = {limit} of [difficulty.{difficulty}]"), limit),
+            None => (format!("time_limit = {} of [mission]", mission.time_limit), mission.time_limit),
+        });
+        let mut limits: Vec<(String, f64)> = limits.into();
+        if let Some(before) = before {
+            if before > mission.time_limit {
+                return Err(format!("before = {before} is later than time_limit = {} of [mission]: it never counts", mission.time_limit));
+            }
+            if before == 0.0 {
+                return Err("before = 0 is the beginning: it cannot be reached".into());
+            }
+            limits.push((format!("before = {before}"), before));
+        }
+        let in_time = |value: f64, key: &str| match limits.iter().find(|(_, limit)| value > *limit) {
+            Some((what, _)) => Err(format!("{key} = {value} is later than {what}: it cannot be reached")),
+            None => Ok(()),
+        };
+        if let GoalTask::Reach { most, .. } | GoalTask::Whirl { most, .. } | GoalTask::Survive { most, .. } = self.task
+            && most <= 1.0
+            && !mission.inside
+        {
+            return Err(format!("radius = [.., {most}] lies inside the horizon, where a mission with inside = false is lost"));
+        }
+        match self.task {
+            GoalTask::Survive { until, .. } => in_time(until, "until")?,
+            GoalTask::Gates if mission.gates.is_empty() => return Err("kind = \"gates\" needs at least one [[gate]]".into()),
+            GoalTask::Hold { span, .. } | GoalTask::Reach { span, .. } | GoalTask::Look { span, .. } | GoalTask::Coast { span } => {
+                in_time(span, "for")?;
+            }
+            _ => (),
+        }
+        Ok(())
+    }
 }
 
 /// What is to be done. Ships by their index in the scene, lengths in r_s, times in r_s/c of T.
@@ -125,36 +156,60 @@ impl GoalTask {
     }
 }
 
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "lowercase")]
-enum Kind {
-    Burn,
-    Turn,
-    Coast,
-    Look,
-    Reach,
-    Hold,
-    Hit,
-    Survive,
-    Gates,
-    Whirl,
+/// A kind of goal.
+#[derive(Clone, Copy, Debug)]
+struct Kind {
+    name: &'static str,
+    /// The keys that must be there.
+    needed: Keys,
+    /// Those that may be.
+    optional: Keys,
+    /// Its task from them.
+    task: ReadTask,
 }
 
-impl Kind {
-    /// The keys that go with it, those that must be there first.
-    fn keys(self) -> (&'static [&'static str], &'static [&'static str]) {
-        match self {
-            Kind::Burn => (&["amount"], &[]),
-            Kind::Turn => (&["angle"], &[]),
-            Kind::Coast => (&["for"], &[]),
-            Kind::Look => (&["ship"], &["angle", "for"]),
-            Kind::Reach => (&["radius"], &["for"]),
-            Kind::Hold => (&["ship"], &["distance", "for"]),
-            Kind::Hit => (&["ship"], &["times"]),
-            Kind::Survive => (&["until"], &["radius"]),
-            Kind::Gates => (&[], &[]),
-            Kind::Whirl => (&["turns", "radius"], &[]),
-        }
+type Keys = &'static [&'static str];
+type ReadTask = fn(&GoalEntry, &[ShipSpec]) -> Result<GoalTask, Fault>;
+
+const fn kind(name: &'static str, needed: Keys, optional: Keys, task: ReadTask) -> Kind {
+    Kind { name, needed, optional, task }
+}
+
+/// All of them.
+const KINDS: [Kind; 10] = [
+    kind("burn", &["amount"], &[], |entry, _| Ok(GoalTask::Burn { amount: number(&entry.amount, "amount", 1e-3..=100.0, "c", 0.1)? })),
+    kind("turn", &["angle"], &[], |entry, _| Ok(GoalTask::Turn { angle: entry.angle(1.0)? })),
+    kind("coast", &["for"], &[], |entry, _| Ok(GoalTask::Coast { span: entry.span(1.0)? })),
+    kind("look", &["ship"], &["angle", "for"], |entry, ships| {
+        Ok(GoalTask::Look { ship: entry.ship(ships)?, angle: entry.angle(0.2)?, span: entry.span(0.0)? })
+    }),
+    kind("reach", &["radius"], &["for"], |entry, _| {
+        let [least, most] = entry.radii()?;
+        Ok(GoalTask::Reach { least, most, span: entry.span(0.0)? })
+    }),
+    kind("hold", &["ship"], &["distance", "for"], |entry, ships| {
+        let distance = entry.distance.as_ref().map(|distance| in_range(distance, "distance", 0.01..=FARTHEST, "r_s")).transpose()?;
+        Ok(GoalTask::Hold { ship: entry.ship(ships)?, distance, span: entry.span(f64::NAN)? })
+    }),
+    kind("hit", &["ship"], &["times"], |entry, ships| Ok(GoalTask::Hit { ship: entry.ship(ships)?, times: entry.times()? })),
+    kind("survive", &["until"], &["radius"], |entry, _| {
+        let [least, most] = entry.radii()?;
+        Ok(GoalTask::Survive { until: number(&entry.until, "until", 0.0..=LONGEST, "r_s/c", 0.0)?, least, most })
+    }),
+    kind("gates", &[], &[], |_, _| Ok(GoalTask::Gates)),
+    kind("whirl", &["turns", "radius"], &[], |entry, _| {
+        let [least, most] = entry.radii()?;
+        Ok(GoalTask::Whirl { turns: number(&entry.turns, "turns", 0.01..=1000.0, "turns", 1.0)?, least, most })
+    }),
+];
+
+impl<'de> Deserialize<'de> for Kind {
+    fn deserialize<D: Deserializer<'de>>(reader: D) -> Result<Kind, D::Error> {
+        let name = String::deserialize(reader)?;
+        KINDS.into_iter().find(|kind| kind.name == name).ok_or_else(|| {
+            let known = KINDS.map(|kind| format!("`{}`", kind.name)).join(", ");
+            Error::custom(format!("unknown variant `{name}`, expected one of {known}"))
+        })
     }
 }
 
@@ -227,10 +282,9 @@ impl GoalEntry {
             short(hint, 2 * MOST_LETTERS)?;
             buttons::check(hint)?;
         }
-        let kind = *self.kind.get_ref();
-        let (needed, allowed) = kind.keys();
-        if let Some((key, span)) = self.given().find(|(key, _)| !needed.contains(key) && !allowed.contains(key)) {
-            let known = [needed, allowed].concat().join(", ");
+        let Kind { needed, optional, task, .. } = *self.kind.get_ref();
+        if let Some((key, span)) = self.given().find(|(key, _)| !needed.contains(key) && !optional.contains(key)) {
+            let known = [needed, optional].concat().join(", ");
             return Err(Fault { span, message: format!("{key} does not go with this kind; its keys: {known}") });
         }
         if let Some(missing) = needed.iter().find(|key| !self.given().any(|(given, _)| given == **key)) {
@@ -240,39 +294,21 @@ impl GoalEntry {
         Ok(Goal {
             text: self.text.get_ref().clone(),
             hint: self.hint.as_ref().map(|hint| hint.get_ref().clone()),
-            task: self.task(kind, ships)?,
+            task: task(self, ships)?,
             before,
         })
     }
 
-    fn task(&self, kind: Kind, ships: &[ShipSpec]) -> Result<GoalTask, Fault> {
-        let span = |default| number(&self.span, "for", 0.0..=LONGEST, "r_s/c", default);
-        let ship = || self.ship.as_ref().map_or(Ok(0), |name| ship_named(name, ships));
-        let angle = |default| number(&self.angle, "angle", 1e-3..=100.0, "rad", default);
-        Ok(match kind {
-            Kind::Burn => GoalTask::Burn { amount: number(&self.amount, "amount", 1e-3..=100.0, "c", 0.1)? },
-            Kind::Turn => GoalTask::Turn { angle: angle(1.0)? },
-            Kind::Coast => GoalTask::Coast { span: span(1.0)? },
-            Kind::Look => GoalTask::Look { ship: ship()?, angle: angle(0.2)?, span: span(0.0)? },
-            Kind::Reach => {
-                let [least, most] = self.radii()?;
-                GoalTask::Reach { least, most, span: span(0.0)? }
-            }
-            Kind::Hold => {
-                let distance = self.distance.as_ref().map(|distance| in_range(distance, "distance", 0.01..=FARTHEST, "r_s")).transpose()?;
-                GoalTask::Hold { ship: ship()?, distance, span: span(f64::NAN)? }
-            }
-            Kind::Hit => GoalTask::Hit { ship: ship()?, times: self.times()? },
-            Kind::Survive => {
-                let [least, most] = self.radii()?;
-                GoalTask::Survive { until: number(&self.until, "until", 0.0..=LONGEST, "r_s/c", 0.0)?, least, most }
-            }
-            Kind::Gates => GoalTask::Gates,
-            Kind::Whirl => {
-                let [least, most] = self.radii()?;
-                GoalTask::Whirl { turns: number(&self.turns, "turns", 0.01..=1000.0, "turns", 1.0)?, least, most }
-            }
-        })
+    fn span(&self, default: f64) -> Result<f64, Fault> {
+        number(&self.span, "for", 0.0..=LONGEST, "r_s/c", default)
+    }
+
+    fn angle(&self, default: f64) -> Result<f64, Fault> {
+        number(&self.angle, "angle", 1e-3..=100.0, "rad", default)
+    }
+
+    fn ship(&self, ships: &[ShipSpec]) -> Result<usize, Fault> {
+        self.ship.as_ref().map_or(Ok(0), |name| ship_named(name, ships))
     }
 
     fn radii(&self) -> Result<[f64; 2], Fault> {

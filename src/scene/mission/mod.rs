@@ -182,7 +182,7 @@ pub fn check_mission(
         if goal.task.ship() == Some(own) {
             return Err(Fault { span: written.get_ref().ship_span(), message: "the goal's ship is the player's own".into() });
         }
-        reachable(&mission, goal, written.get_ref().given_before())
+        goal.reachable(&mission, written.get_ref().given_before())
             .map_err(|message| Fault { span: written.get_ref().kind_span(), message })?;
     }
     Ok(mission)
@@ -204,43 +204,6 @@ fn enough_bolts(mission: &Mission, goals: &[Spanned<GoalEntry>]) -> Result<(), F
             let message = format!("{times_so_far} hits up to here need as many bolts; [difficulty.{difficulty}] has ship.bolts = {bolts}");
             return Err(Fault { span: written.get_ref().kind_span(), message });
         }
-    }
-    Ok(())
-}
-
-/// Whether a goal can be reached at all in its mission, on each difficulty, else why not. `before`: the goal's own limit, if it has one.
-fn reachable(mission: &Mission, goal: &Goal, before: Option<f64>) -> Result<(), String> {
-    let limits = Difficulty::ALL.map(|difficulty| match mission.levels[difficulty as usize].number("rules.time_limit") {
-        Some(limit) => (format!("rules.time_limit = {limit} of [difficulty.{difficulty}]"), limit),
-        None => (format!("time_limit = {} of [mission]", mission.time_limit), mission.time_limit),
-    });
-    let mut limits: Vec<(String, f64)> = limits.into();
-    if let Some(before) = before {
-        if before > mission.time_limit {
-            return Err(format!("before = {before} is later than time_limit = {} of [mission]: it never counts", mission.time_limit));
-        }
-        if before == 0.0 {
-            return Err("before = 0 is the beginning: it cannot be reached".into());
-        }
-        limits.push((format!("before = {before}"), before));
-    }
-    let in_time = |value: f64, key: &str| match limits.iter().find(|(_, limit)| value > *limit) {
-        Some((what, _)) => Err(format!("{key} = {value} is later than {what}: it cannot be reached")),
-        None => Ok(()),
-    };
-    if let GoalTask::Reach { most, .. } | GoalTask::Whirl { most, .. } | GoalTask::Survive { most, .. } = goal.task
-        && most <= 1.0
-        && !mission.inside
-    {
-        return Err(format!("radius = [.., {most}] lies inside the horizon, where a mission with inside = false is lost"));
-    }
-    match goal.task {
-        GoalTask::Survive { until, .. } => in_time(until, "until")?,
-        GoalTask::Gates if mission.gates.is_empty() => return Err("kind = \"gates\" needs at least one [[gate]]".into()),
-        GoalTask::Hold { span, .. } | GoalTask::Reach { span, .. } | GoalTask::Look { span, .. } | GoalTask::Coast { span } => {
-            in_time(span, "for")?;
-        }
-        _ => (),
     }
     Ok(())
 }

@@ -9,7 +9,6 @@
 pub mod aim;
 pub mod beginner;
 pub mod jerky;
-pub mod orders;
 pub mod plan;
 pub mod rendezvous;
 pub mod rollout;
@@ -27,6 +26,7 @@ use crate::spacetime::matter::ShipState;
 use super::bolts::{Gun, Trigger};
 use super::clock::Clock;
 use super::flight::Command;
+use super::goals::give_orders;
 use super::history::History;
 use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Manual, Pilot, PilotOrder, Player, ShipMotion};
 use super::sight::{apparition, emission_time};
@@ -113,7 +113,7 @@ impl Plugin for EnemyAiPlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<Skills>().init_resource::<Chance>().init_resource::<ChaseRules>().add_systems(
             FixedUpdate,
-            (orders::give_orders, beginner::fly_as_beginner, jerky::fly_by_jerks, fly_by_pilot).chain().in_set(SimSet::Ai),
+            (give_orders, beginner::fly_as_beginner, jerky::fly_by_jerks, fly_by_pilot).chain().in_set(SimSet::Ai),
         );
     }
 }

@@ -6,9 +6,9 @@
 
 use std::collections::{HashMap, HashSet};
 
+use lensrunner::lensing::methods::Method;
 use lensrunner::render::gpu::library::Worldlines;
 use lensrunner::render::gpu::shaders::Pass;
-use lensrunner::render::method::Method;
 use naga::{AddressSpace, Arena, Block, Expression, Function, Handle, LocalVariable, Module, Statement};
 
 /// What a value depends on.

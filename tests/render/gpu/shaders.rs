@@ -2,9 +2,9 @@
 
 use lensrunner::lensing::Slice;
 use lensrunner::lensing::lookup::{OLD, YOUNG, lens_lookup_aged};
+use lensrunner::lensing::methods::METHODS;
 use lensrunner::render::gpu::layout::module_of;
 use lensrunner::render::gpu::shaders::Pass;
-use lensrunner::render::method::Method;
 use lensrunner::render::sky::table::{sky_seen, sky_swept, sky_table};
 use lensrunner::scene::sky::milky_way;
 use rand::rngs::StdRng;
@@ -22,7 +22,7 @@ fn close(got: f32, want: f32, relative: f32) -> bool {
 
 #[test]
 fn every_pass_compiles_by_every_method() {
-    for method in Method::all() {
+    for method in METHODS {
         for pass in Pass::ALL {
             let scope = GPU.device.push_error_scope(wgpu::ErrorFilter::Validation);
             let _ = module_of(&GPU.device, "pass", pass.module_by(method, true));

@@ -1,8 +1,8 @@
 //! Other drivers: each shipped pipeline is translated for Vulkan, Metal and DirectX 12, and asks for no more than WebGPU guarantees.
 
+use lensrunner::lensing::methods::{METHODS, Method};
 use lensrunner::render::gpu::library::Worldlines;
 use lensrunner::render::gpu::shaders::Pass;
-use lensrunner::render::method::Method;
 use naga::back::{hlsl, msl, spv};
 use naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ImageClass, Module, TypeInner};
@@ -16,7 +16,7 @@ fn shipped() -> Vec<(String, Module)> {
         modules.push((format!("{pass:?} outside of the horizon"), outside));
         modules.push((format!("{pass:?} of rings"), pass.module_along(Worldlines::Rings, Method::default(), true)));
     }
-    for method in Method::all() {
+    for method in METHODS {
         modules.push((format!("vertices by {method:?}"), Pass::Vertices.module_by(method, true)));
     }
     modules

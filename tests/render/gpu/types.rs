@@ -3,6 +3,7 @@
 use std::mem::size_of;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
+use lensrunner::lensing::methods::Method;
 use lensrunner::render::aurora::ground::GroundLight;
 use lensrunner::render::aurora::rooms::{CORNERS, LIT_TILES};
 use lensrunner::render::aurora::{
@@ -21,7 +22,6 @@ use lensrunner::render::gpu::types::{
     self, Adaptation, Cap, Capacity, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, SeenVertex, Star,
 };
 use lensrunner::render::gpu::types::{flags, placed};
-use lensrunner::render::method::Method;
 use lensrunner::render::models::ALONE;
 use lensrunner::render::models::hiding::DIRECTIONS;
 use lensrunner::render::models::outside;
@@ -44,7 +44,7 @@ impl Numbers for Capacity {
 }
 
 static LIBRARY: LazyLock<Mutex<Library>> =
-    LazyLock::new(|| Mutex::new(Library::new(Worldlines::Bodies, Method::Table, &[]).unwrap_or_else(|error| panic!("{error}"))));
+    LazyLock::new(|| Mutex::new(Library::new(Worldlines::Bodies, Method::default(), &[]).unwrap_or_else(|error| panic!("{error}"))));
 
 fn composed(text: &str) -> Module {
     let values = Values { inside: true, data_group: 1 };

@@ -6,8 +6,8 @@ mod integrate;
 mod paper;
 
 use lensrunner::lensing::methods::table::look_up;
-use lensrunner::lensing::methods::{Exact, Flat, Projector, Table, Vertex, filed};
-use lensrunner::lensing::{self, FULL_NODES, Scheme, Slice};
+use lensrunner::lensing::methods::{self as game, Flat, Load, Projector, Query, Sight, Table, Vertex, filed};
+use lensrunner::lensing::{FULL_NODES, SMALL_NODES, Scheme, Slice};
 use lensrunner::spacetime::light::{Branch, Order};
 
 pub use analytic::Approximation;
@@ -48,7 +48,16 @@ fn each<'a, R: 'a>(answer: impl Fn(&Vertex, Order) -> R + 'a) -> Box<dyn Frame +
     Box::new(Each(answer))
 }
 
-impl Method for Exact {
+/// A method of the game that is timed as it answers.
+struct Plain(Box<dyn Projector>);
+
+impl Projector for Plain {
+    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
+        self.0.project(query, order, branch)
+    }
+}
+
+impl Method for Plain {
     fn frame(&self, _l: f64) -> Box<dyn Frame + '_> {
         each(|point, order| self.project(point.query, order, Branch::Plus))
     }
@@ -74,78 +83,76 @@ impl Method for Flat {
     }
 }
 
-/// A method in the catalogue.
+/// A method as the chart knows it.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// Its name in the chart.
     pub name: &'static str,
     /// Which family it belongs to: an index into [`FAMILIES`].
     pub family: usize,
+    /// Makes it with the tables that it is given; None: the game's method of that name, timed as it answers.
+    make: Option<fn(Load) -> Box<dyn Method>>,
+}
+
+impl Entry {
+    /// The method, made with tables from `load`.
+    pub fn made(&self, load: Load) -> Option<Box<dyn Method>> {
+        match self.make {
+            Some(make) => Some(make(load)),
+            None => Some(Box::new(Plain((game::named(self.name)?.make)(load)))),
+        }
+    }
 }
 
 /// The families of methods, as the chart colours them.
-pub const FAMILIES: [&str; 5] = ["residual tables (ours)", "Yamashita 2012", "closed approximations", "integration", "exact"];
+pub const FAMILIES: [&str; 6] =
+    ["residual tables (ours)", "Yamashita 2012", "closed approximations", "integration", "exact", "other methods of the game"];
 
-const fn entry(name: &'static str, family: usize) -> Entry {
-    Entry { name, family }
+const fn entry(name: &'static str, family: usize, make: fn(Load) -> Box<dyn Method>) -> Entry {
+    Entry { name, family, make: Some(make) }
 }
 
-/// Every method.
-pub const CATALOGUE: &[Entry] = &[
+/// The laboratory's own methods, and those of the game that it times otherwise than as they answer, or shows in a family.
+const OWN: &[Entry] = &[
     // The ray in closed form, f64.
-    entry("exact", 4),
+    Entry { name: "exact", family: 4, make: None },
     // What the game draws with; eight points at once; the same from the full table.
-    entry("table", 0),
-    entry("table-batch", 0),
-    entry("table-full", 0),
+    entry("table", 0, |load| Box::new(Table(load(Scheme::Residual, SMALL_NODES)))),
+    entry("table-batch", 0, |load| Box::new(Batch(Table(load(Scheme::Residual, SMALL_NODES))))),
+    entry("table-full", 0, |load| Box::new(Table(load(Scheme::Residual, FULL_NODES)))),
     // The tables of Yamashita 2012 with so many nodes an axis, on the meshes of its equations 3 to 7; eight points at once.
-    entry("paper1-16", 1),
-    entry("paper1-32", 1),
-    entry("paper1-64", 1),
-    entry("paper1-128", 1),
-    entry("paper1-128-batch", 1),
+    entry("paper1-16", 1, |load| Box::new(Paper(load(Scheme::Paper, 16)))),
+    entry("paper1-32", 1, |load| Box::new(Paper(load(Scheme::Paper, 32)))),
+    entry("paper1-64", 1, |load| Box::new(Paper(load(Scheme::Paper, 64)))),
+    entry("paper1-128", 1, |load| Box::new(Paper(load(Scheme::Paper, 128)))),
+    entry("paper1-128-batch", 1, |load| Box::new(PaperBatch(Paper(load(Scheme::Paper, 128))))),
     // The same on uniform meshes.
-    entry("paper1-uniform-16", 1),
-    entry("paper1-uniform-32", 1),
-    entry("paper1-uniform-64", 1),
-    entry("paper1-uniform-128", 1),
+    entry("paper1-uniform-16", 1, |load| Box::new(Paper(load(Scheme::PaperUniform, 16)))),
+    entry("paper1-uniform-32", 1, |load| Box::new(Paper(load(Scheme::PaperUniform, 32)))),
+    entry("paper1-uniform-64", 1, |load| Box::new(Paper(load(Scheme::PaperUniform, 64)))),
+    entry("paper1-uniform-128", 1, |load| Box::new(Paper(load(Scheme::PaperUniform, 128)))),
     // Shooting, each shot so many steps of Runge and Kutta's fourth-order rule, f64.
-    entry("rk4-16", 3),
-    entry("rk4-64", 3),
-    entry("rk4-256", 3),
+    entry("rk4-16", 3, |_| Box::new(Integrate { steps: 16 })),
+    entry("rk4-64", 3, |_| Box::new(Integrate { steps: 64 })),
+    entry("rk4-256", 3, |_| Box::new(Integrate { steps: 256 })),
     // Beloborodov 2002, Poutanen 2020, straight lines.
-    entry("beloborodov", 2),
-    entry("poutanen", 2),
-    entry("flat", 2),
+    entry("beloborodov", 2, |_| Box::new(Approximation::Beloborodov)),
+    entry("poutanen", 2, |_| Box::new(Approximation::Poutanen)),
+    entry("flat", 2, |_| Box::new(Flat)),
 ];
 
-/// The names of [`CATALOGUE`], for a person to choose from.
-pub fn names() -> String {
-    CATALOGUE.iter().map(|entry| entry.name).collect::<Vec<_>>().join(", ")
+/// Every method: the laboratory's list, then what else the game has.
+pub fn catalogue() -> Vec<Entry> {
+    let others = game::NAMES.into_iter().filter(|name| !OWN.iter().any(|entry| entry.name == *name));
+    OWN.iter().copied().chain(others.map(|name| Entry { name, family: FAMILIES.len() - 1, make: None })).collect()
+}
+
+/// What the catalogue says of the method called `name`.
+pub fn find(name: &str) -> Option<Entry> {
+    catalogue().into_iter().find(|entry| entry.name == name)
 }
 
 /// The method called `name`, or None. Tables that are not there yet are baked, which stderr is told of, and kept beside the committed one.
 pub fn named(name: &str) -> Option<Box<dyn Method>> {
-    let nodes = |prefix: &str| name.strip_prefix(prefix).and_then(|text| text.parse().ok());
-    Some(match name {
-        "exact" => Box::new(Exact),
-        "table" => Box::new(Table(lensing::default_table())),
-        "table-batch" => Box::new(Batch(Table(lensing::default_table()))),
-        "table-full" => Box::new(Table(filed("full.lut", Scheme::Residual, FULL_NODES))),
-        "paper1-128-batch" => Box::new(PaperBatch(Paper(filed("paper-128.lut", Scheme::Paper, 128)))),
-        "beloborodov" => Box::new(Approximation::Beloborodov),
-        "poutanen" => Box::new(Approximation::Poutanen),
-        "flat" => Box::new(Flat),
-        _ if !CATALOGUE.iter().any(|entry| entry.name == name) => return None,
-        _ => {
-            if let Some(steps) = nodes("rk4-") {
-                Box::new(Integrate { steps })
-            } else if let Some(count) = nodes("paper1-uniform-") {
-                Box::new(Paper(filed(&format!("paper-uniform-{count}.lut"), Scheme::PaperUniform, count)))
-            } else {
-                let count = nodes("paper1-")?;
-                Box::new(Paper(filed(&format!("paper-{count}.lut"), Scheme::Paper, count)))
-            }
-        }
-    })
+    find(name)?.made(&filed)
 }

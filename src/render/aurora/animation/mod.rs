@@ -223,7 +223,7 @@ impl AuroraAnimation {
                 let seen_on = |aspect| if near { whole } else { extent.part_of_screen(view.camera, aspect) };
                 widest = widest.max(width);
                 frame.parts.push(view.aspect.map_or(whole, seen_on));
-                let bends = view.settings.method.bends();
+                let bends = view.settings.method.bends;
                 frame.behind.push(self.disk.is_some_and(|disk| veil::is_behind(view.camera, position, order, bends, disk)));
                 frame.colours.push(self.colours(globe, order, part));
                 frame.instances.push(instance);

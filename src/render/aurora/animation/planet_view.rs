@@ -60,7 +60,7 @@ impl<'a> PlanetView<'a> {
     pub fn magnification(&self) -> f64 {
         let (l, r) = (self.view.camera.radius(), self.position.length());
         let behind = -self.position.dot(self.view.camera.position) / l;
-        if behind <= 0.0 || !self.view.settings.method.bends() {
+        if behind <= 0.0 || !self.view.settings.method.bends {
             return 1.0;
         }
         let einstein = (2.0 * behind / (l * (l + behind))).sqrt();
@@ -76,7 +76,7 @@ impl<'a> PlanetView<'a> {
     pub fn frequency_ratio(&self, order: Order) -> Option<f64> {
         let camera = self.view.camera;
         let emitted = self.history.at(departure(self.view, self.time, self.history, order)?);
-        if !self.view.settings.method.bends() {
+        if !self.view.settings.method.bends {
             let k = (camera.position - emitted.position).normalize();
             let frequency = |position, momentum| {
                 let p = against_static(position, momentum);
