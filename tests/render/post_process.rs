@@ -10,21 +10,15 @@ use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::Moment;
 use lensrunner::spacetime::Observer;
 
-use crate::gpu::GPU;
-use crate::render::support::surroundings;
+use crate::render::support::{linear, renderer};
 
 /// A scene at T = 0, with its layers.
 fn picture(name: &str, size: [u32; 2], settings: &Settings) -> Picture {
     let scene = scene::load(name).unwrap();
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let mut renderer = renderer(size);
     let mut stage = Stage::new(&mut renderer, &scene, &GameConfig::default());
     let frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, settings);
     renderer.picture(&frame, true).unwrap()
-}
-
-fn linear(encoded: u8) -> f64 {
-    let value = f64::from(encoded) / 255.0;
-    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
 /// Of the same linear light, at a size that is no multiple of the levels' steps. What remains are steps of 8 bits and halves of 11 bits.
@@ -88,24 +82,19 @@ fn outlines_of_bodies_are_smooth() {
     }
     let [plain, smooth] = errors.map(|error| (error / f64::from(outline)).sqrt());
     println!("{outline} pixels of outlines: off by {plain:.4} without, {smooth:.4} with smoothing (root mean square)");
-    assert!(outline > 1000, "only {outline} pixels of outlines");
+    assert!(outline > 1000);
     // 0.84 is reached: the pass knows the steps of an outline, and not where it goes between them; the chequers beside it are filtered
     // differently at the two sizes.
     assert!(smooth < 0.9 * plain, "off by {smooth} with smoothing, {plain} without");
 }
 
-/// The chase at its start, ready to be drawn 160 × 90 pixels large.
-fn a_chase() -> ([u32; 2], GameConfig, Renderer, Stage, Moment) {
-    a_chase_of([160, 90])
-}
-
-/// The same in any size.
-fn a_chase_of(size: [u32; 2]) -> ([u32; 2], GameConfig, Renderer, Stage, Moment) {
+/// The chase at its start, ready to be drawn.
+fn a_chase(size: [u32; 2]) -> ([u32; 2], GameConfig, Renderer, Stage, Moment) {
     let mut config = GameConfig::default();
     // Its strokes are added in any order, which rounding tells.
     config.aurora.enabled = false;
     let scene = scene::load("chase").unwrap();
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let mut renderer = renderer(size);
     let stage = Stage::new(&mut renderer, &scene, &config);
     let moment = Moment::new(&scene, &config, 0.0, 0);
     (size, config, renderer, stage, moment)
@@ -116,7 +105,7 @@ fn a_chase_of(size: [u32; 2]) -> ([u32; 2], GameConfig, Renderer, Stage, Moment)
 /// all of it.
 #[test]
 fn the_own_ship_is_lit_for_the_exposure() {
-    let (size, config, mut renderer, mut stage, moment) = a_chase();
+    let (size, config, mut renderer, mut stage, moment) = a_chase([160, 90]);
     let mut draw = |own_ship, exposure: f32| {
         let settings =
             Settings { own_ship, exposure_range: [exposure; 2], bloom: 0.0, smooth: false, orders: 1, ..stage::settings(&config) };
@@ -162,7 +151,7 @@ fn the_own_ship_is_lit_for_the_exposure() {
 /// A ship that is lit as white as one likes moves the exposure of nothing else: the finished picture beside it stays as it is.
 #[test]
 fn the_own_ship_is_not_metered() {
-    let (size, config, mut renderer, mut stage, moment) = a_chase();
+    let (size, config, mut renderer, mut stage, moment) = a_chase([160, 90]);
     let mut draw = |fill| {
         let settings = Settings { own_ship: Some(0), fill, bloom: 0.0, smooth: false, orders: 1, ..stage::settings(&config) };
         let frame = stage.frame(stage.camera(0.0, &moment.ships()), size, 0.0, &moment.histories(), None, &settings);
@@ -189,7 +178,7 @@ fn lit_ship(ship: &[usize], pixel: usize, size: [u32; 2]) -> bool {
 /// the images come to lie in tiles that they were in, at other places.
 #[test]
 fn thin_images_leave_nothing_behind() {
-    let (size, config, mut renderer, mut stage, moment) = a_chase_of([480, 270]);
+    let (size, config, mut renderer, mut stage, moment) = a_chase([480, 270]);
     let settings = Settings { stars: false, milky_way: false, ..stage::settings(&config) };
     let camera = stage.camera(moment.time(), &moment.ships());
     let mut turned = |degrees: f64| {

@@ -9,7 +9,7 @@ use super::Image;
 use crate::scene::aurora::random;
 
 /// Width and height of the galaxy, in pixels.
-pub const GALAXY_SIZE: u32 = 1024;
+const GALAXY_SIZE: u32 = 1024;
 
 /// A chequer of 24 × 12 fields in ivory and deep blue, 768 × 384 pixels: square fields on the equator of a sphere.
 pub fn checker() -> Arc<Image> {
@@ -134,7 +134,7 @@ fn draw(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [u8; 4] + Sync) -> 
 }
 
 /// Linear to sRGB, 8 bits (IEC 61966-2-1).
-fn encode_srgb(linear: f32) -> u8 {
+pub fn encode_srgb(linear: f32) -> u8 {
     let linear = linear.clamp(0.0, 1.0);
     let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     (encoded * 255.0).round() as u8

@@ -155,14 +155,7 @@ impl Replay {
 
     /// `game.toml` as it was flown by, but for the difficulty; what the flight does not depend on is as in `config`.
     pub fn config(&self, config: &GameConfig) -> GameConfig {
-        let mut config = config.clone();
-        for (path, value) in &self.settings {
-            if let Some(setting) = config::setting(path) {
-                // Checked as it was read.
-                let _ = setting.set(&mut config, value.clone());
-            }
-        }
-        config
+        with_settings(config.clone(), &self.settings)
     }
 
     /// Its text.
@@ -308,6 +301,16 @@ pub fn record(scene: &Scene, config: &GameConfig, request: &RunRequest) -> (Flig
     (report, replay)
 }
 
+/// `config` with these values, which were checked as they were read.
+pub(in crate::sim) fn with_settings(mut config: GameConfig, settings: &[(String, Value)]) -> GameConfig {
+    for (path, value) in settings {
+        if let Some(setting) = config::setting(path) {
+            let _ = setting.set(&mut config, value.clone());
+        }
+    }
+    config
+}
+
 /// Settings as a table, inline.
 pub(in crate::sim) fn settings_text(settings: &[(String, Value)]) -> String {
     let value = |value: &Value| match value.clone() {
@@ -381,7 +384,7 @@ impl Plugin for PlaybackPlugin {
 }
 
 /// The hands of this step.
-pub fn play_back(clock: Res<Clock>, mut playback: ResMut<Playback>, mut hands: ResMut<Hands>) {
+fn play_back(clock: Res<Clock>, mut playback: ResMut<Playback>, mut hands: ResMut<Hands>) {
     while let Some(record) = playback.records.get(playback.next).filter(|record| record.tick <= clock.tick).copied() {
         *hands = record.hands;
         playback.next += 1;
