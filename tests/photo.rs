@@ -143,8 +143,8 @@ fn a_picture_is_made_again_from_its_file() {
     }
 }
 
-/// Frames of the demonstration come again if they are drawn in their order, as the eye adapts from each to the next. One
-/// alone is exposed as it needs to be; only the first was so.
+/// Frames of the demonstration come again if they are drawn in their order, as the eye adapts from each to the next. Only
+/// the first is exposed as one alone.
 #[test]
 fn frames_of_the_demonstration_are_made_again() {
     const FRAMES: u32 = 4;

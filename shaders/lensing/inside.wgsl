@@ -20,7 +20,7 @@ struct Path {
 }
 
 /// `nodes` is 12. It and `steps` below come from the camera and not from constants: compilers unroll loops of a known length, and twelve
-/// nodes in six steps made a minute of compilation of each pass; a camera outside skips loops of length 0.
+/// nodes in six steps make a minute of compilation of each pass; a camera outside skips loops of length 0.
 fn inside_path(q: f32, l: f32, r: f32, zl: f32, zr: f32, dr: f32, nodes: u32) -> Path {
     var d = 0.5;
     if q < INSIDE_ROOT {

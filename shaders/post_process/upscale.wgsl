@@ -14,7 +14,7 @@ fn vertex(@builtin(vertex_index) i: u32) -> Screen {
     return Screen(vec4<f32>(corner * 2.0 - 1.0, 0.0, 1.0), vec2<f32>(corner.x, 1.0 - corner.y));
 }
 
-/// Keys' parameter: −1/2 is exact for parabolas, −3/4 is sharper and was nearest to the full picture.
+/// Keys' parameter: −1/2 is exact for parabolas, −3/4 is sharper and nearest to the full picture.
 const SHARPNESS: f32 = -0.75;
 
 /// Weights of the four texels about a place that is `t` past the second.

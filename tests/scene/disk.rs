@@ -170,7 +170,7 @@ fn arcs_cover_the_disk() {
 
 /// Matter falls in at an even rate, so the whole disk is as bright at one time as at another: no ring of the pattern is brighter all round
 /// than the next one. What is left is chance: where two generations have their largest knots in the same places, or one where the other has
-/// none (0.88 to 1.06 of the mean). With rings of their own brightness it was 0.79 to 1.22.
+/// none (0.88 to 1.06 of the mean).
 #[test]
 fn the_whole_disk_keeps_its_light() {
     let gas = gas();

@@ -77,8 +77,8 @@ fn few_arcs_draw_the_picture_of_many() {
     }
 }
 
-/// The thin second image as it is seen from within the plane, falling at r = 1.6: across it light rises and falls once. It had a row of
-/// holes in its middle, as long as what a ring's middle lacks of optical depth was told for the slant at one of its circles.
+/// The thin second image as it is seen from within the plane, falling at r = 1.6: across it light rises and falls once. Its
+/// middle has no row of holes: what a ring's middle lacks of optical depth is told for its own slant, not for that at one of its circles.
 #[test]
 fn thin_images_from_within_the_plane_have_no_holes() {
     const WIDTH: u32 = 960;

@@ -115,8 +115,8 @@ fn left_at_all(renderer: &mut Renderer, eye: DVec3, degrees: f64, size: f64, con
     left(renderer, camera, &PLACES.map(|place| (place, size)), config, &settings)
 }
 
-/// Thin images of ships were laid over the disk, whatever of it was before them. The gas takes as much from thin ones as from wide ones
-/// (balls of 0.05 to 1 r_s), of every order: an image of order n is behind n − 1 or n images of the disk.
+/// The gas takes as much from thin images of ships as from wide ones (balls of 0.05 to 1 r_s), of every order: an image of order n is behind
+/// n − 1 or n images of the disk.
 #[test]
 fn images_are_dimmed_by_what_of_the_disk_is_before_them() {
     let mut renderer = renderer(SIZE);
@@ -166,8 +166,8 @@ fn nearer(camera: &Observer, at: [f64; 2], times: f64) -> Observer {
     Observer { attitude: camera.attitude * turn, field_of_view: 2.0 * (0.5 * width * pixel / times).atan(), ..*camera }
 }
 
-/// Of a thin body that stands astride the disk's plane each part keeps what the gas before it leaves. The nearer part was laid over the
-/// farther one as if it stood before it, and hid as much of that as it covers of the pixel itself.
+/// Of a thin body that stands astride the disk's plane each part keeps what the gas before it leaves; the nearer part hides nothing of the
+/// farther one.
 ///
 /// A pixel with light of both parts has no one path. So what is right is counted by the exact gas in a picture in which such a body is some
 /// fifty pixels wide. And a triangle that is drawn a pixel wide meets the middle of one pixel or of none: its light is right only in the

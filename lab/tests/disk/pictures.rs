@@ -89,8 +89,7 @@ fn without_streaks_the_picture_is_the_exact_one_to_a_hundredth() {
     let truth = disk::picture(&disk.gas, &camera, size, 100.0, 2, 3);
     let error = disk::compare(&got, &truth, size, disk::peak(&truth));
     println!("without streaks: {error:?}");
-    // It has 54.9 dB. When thin images were coarser it had 41.7, gas with g off by a hundredth 39.7, images of orders 2 and 3 half a pixel
-    // aside 40.9.
+    // It has 54.9 dB; gas with g off by a hundredth has 39.7, images of orders 2 and 3 half a pixel aside 40.9.
     assert!(error.psnr > 52.0, "PSNR is {} dB", error.psnr);
 }
 
@@ -200,7 +199,7 @@ fn arcs_are_nearer_to_the_truth_than_polygons_or_as_near() {
     let with = |representation: &str| disk_with(|config| config.disk.representation = representation.into());
     let disks = [with("arcs"), with("polygons")];
     let mut renderers = [renderer(size), renderer(size)];
-    // By how many dB at least: about two thirds of what was measured; edge on they have been 0.05 apart.
+    // By how many dB at least: about two thirds of the measured lead; edge on they are 0.05 apart.
     for (degrees, lead) in [(30.0, 2.0), (80.0, 2.0), (87.0, 0.5), (89.0, -0.3)] {
         let camera = camera(27.0, degrees, 60f64.to_radians());
         let truth = disk::picture(&disks[0].gas, &camera, size, 100.0, 3, 2);

@@ -88,9 +88,8 @@ fn rings_that_turn_show_the_gas_of_those_at_rest() {
     }
 }
 
-/// Of a disk seen exactly edge on light comes round the hole on all sides, from the places behind it. Where the axis lay in the triangles,
-/// that is from nearly the plane on, they had no image or a part of it; and rings that turn had all their sides taken for outlines from
-/// there, so that most of their vertices found no room.
+/// Of a disk seen exactly edge on light comes round the hole on all sides, from the places behind it. There the axis of hole and camera
+/// lies in the triangles, and no side of a turning ring may be taken for an outline.
 #[test]
 fn polygons_are_seen_from_within_their_plane() {
     let size = [240, 135];

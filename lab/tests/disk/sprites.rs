@@ -113,7 +113,7 @@ fn the_picture_of_sprites_is_the_exact_one() {
     let size = [320, 180];
     let sprites = with("sprites", |_| ());
     let mut renderer = renderer(size);
-    // About 2 dB less than was measured, and no less light: streaks add up to 0.023 too much.
+    // About 2 dB less than measured, and no less light: streaks add up to 0.023 too much.
     for (l, degrees, least, most) in
         [(27.0, 0.0, 40.0, 0.03), (27.0, 30.0, 38.0, 0.03), (27.0, 80.0, 43.0, 0.03), (27.0, 88.0, 40.0, 0.03), (6.5, 87.0, 37.5, 0.03)]
     {
@@ -146,7 +146,7 @@ fn sprites_without_streaks_have_their_light() {
 }
 
 /// The third image is far thinner than a pixel, and yet it has its light: from one spot to the next its
-/// rings part by a few roundings of f32 alone. (As if rings went on without end it had five times too much.) At one time alone it is chance
+/// rings part by a few roundings of f32 alone. At one time alone it is chance
 /// which streak of the second image is before it.
 #[test]
 fn the_third_image_of_sprites_has_its_light() {

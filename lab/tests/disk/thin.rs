@@ -89,8 +89,7 @@ fn thin_images_have_their_light() {
     }
 }
 
-/// Streaks add a third to a half to the light of the third image: its mean counts them, and no single one is drawn over all of its width,
-/// which made it twice as bright from 30°.
+/// Streaks add a third to a half to the light of the third image: its mean counts them, and no single one is drawn over all of its width.
 #[test]
 fn the_third_image_has_its_light() {
     for place in &places()[..2] {
@@ -102,7 +101,7 @@ fn the_third_image_has_its_light() {
 }
 
 /// The thin upper arc of the images of order 2 and 3 within the shadow is a line of even light, and not a row of dots: from 48 r_s it is
-/// half a pixel to two wide, and where each circle showed its own gas a pixel had the hot ones or had none.
+/// half a pixel to two wide, and a pixel shows the mean of its circles.
 #[test]
 fn thin_images_are_lines_without_a_break() {
     let size = [1280u32, 720];

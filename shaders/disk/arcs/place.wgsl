@@ -71,7 +71,7 @@ struct SeenGas {
 }
 
 /// A mix of the mean gas of a thin image (without streaks) and a circle's own gas, of which the share is `share`; depths are along the ray.
-/// Light and the stopped share are mixed: mixing logarithms lost up to 40 % of the light of an image one to two pixels wide.
+/// Light and the stopped share are mixed: mixing logarithms loses up to 40 % of the light of an image one to two pixels wide.
 fn between(mean: SeenGas, own: SeenGas, share: f32) -> SeenGas {
     let v = streak_variance();
     let stops = 1.0 - exp(-vec2<f32>(mean.depth, own.depth));

@@ -34,8 +34,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     // Thin images are widened to lines, so their chords are held closer: the sag shows against their own width. With half the budget a line
-    // half a pixel to two wide was uneven by a tenth, with this by a sixteenth. Wide images of orders 2 and 3 are not lines, but all of the
-    // disk is narrow in them: with the whole budget gas was moved so far that a ball behind it had 0.52 of its light left instead of 0.64.
+    // half a pixel to two wide is uneven by a tenth, with this by a sixteenth. Wide images of orders 2 and 3 are not lines, but all of the
+    // disk is narrow in them: with the whole budget gas moves so far that a ball behind it has 0.52 of its light left instead of 0.64.
     let half = min(min(a.half_width, m.half_width), b.half_width);
     let budget = disk.error_budget * select(mix(0.35, 0.6, own_share(half)), 1.0, circles[row].order == 1u);
     var count = u32(clamp(ceil(sqrt(error / budget)), 1.0, f32(MOST_SEGMENTS)));

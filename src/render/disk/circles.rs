@@ -42,8 +42,8 @@ impl Within {
 pub const FROM_FAR: Within = Within { across: 0.15, along: 4.0, light: 0.005, stopped: 0.015 };
 /// For order 1, where one ring may fill the picture. Shear turns streaks: in the 80 r_s/c that a streak lives, at 6.5 r_s, it comes to lie
 /// across the orbit by one part in five of its length. Then an error of a pixel along the orbit moves the streak aside by a fifth of a
-/// pixel, twice `across`. With four pixels, one ring beside the camera had a fifth of the error of the whole picture. Half of this limit on
-/// light was hardly better; twice as much made the error 3 % larger.
+/// pixel, twice `across`. With four pixels, one ring beside the camera has a fifth of the error of the whole picture. Half of this limit on
+/// light is hardly better; twice as much makes the error 3 % larger.
 pub const FROM_NEAR: Within = Within { across: 0.1, along: 1.0, light: 0.001, stopped: 0.005 };
 
 /// Step of √(distance from the last stable orbit) between the circles on offer in the falling gas, in √r_s. With it a linear lag is off by

@@ -205,13 +205,13 @@ const THIN_STRICTNESS: f32 = 4.0;
 /// Images narrower than this, in pixels, are slim ones. The narrower they are, the closer their chords are held, since all of them are near
 /// an outline. The width is the largest; a ring is a tenth as wide elsewhere.
 const SLIM_BELOW: f64 = 16.0;
-/// Largest strictness of slim images. With 8, half as many random scenes of rings 1 to 3 px wide were beyond the limits as with 4 and less
-/// (seed 2026112503: 9 of 19). Narrower ones would take more vertices than there is room for.
+/// Largest strictness of slim images: with 8, half as many random scenes of rings 1 to 3 px wide are beyond the limits as with 4. Stricter
+/// ones take more vertices than there is room for.
 const MOST_SLIM: f64 = 8.0;
 /// Camera radii, in r_s, from which light that circles the hole is seen beside what lies behind it. Images there are sheared, and their
 /// inner points are off by more than the chords around them.
 const NEAR_PHOTON_SPHERE: std::ops::RangeInclusive<f64> = 1.3..=1.8;
-/// Strictness there. With a budget of 0.3 px instead of 0.5 px, points of balls behind the hole were within half a pixel; with 0.5 px up to
+/// Strictness there. With a budget of 0.3 px instead of 0.5 px, points of balls behind the hole are within half a pixel; with 0.5 px up to
 /// 0.59 px off.
 const PHOTON_SPHERE_STRICTNESS: f32 = 1.7;
 
