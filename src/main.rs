@@ -14,15 +14,13 @@ use lensrunner::argument::{number, whole};
 use lensrunner::judge::{case, to_file};
 use lensrunner::lensing::project::{self, ProjectError};
 use lensrunner::lensing::{self, Scheme, methods};
-use lensrunner::picture_file::moment::{moment_of, read_moment};
+use lensrunner::picture_file::moment::moment_of;
 use lensrunner::scene::config::Assignment;
 use lensrunner::scene::crew::Crew;
 use lensrunner::scene::{self, Difficulty};
-use lensrunner::sim::Moment;
 use lensrunner::sim::replay::{Replay, ReplayError, record};
 use lensrunner::sim::run::RunRequest;
 use lensrunner::sim::simulate::{self, SimulateError};
-use lensrunner::sim::snapshot::Snapshot;
 use lensrunner::sim::sweep::{self, Axis};
 use lensrunner::sim::{agent, balance, check};
 use lensrunner::spacetime::light::{Branch, Order};
@@ -61,13 +59,9 @@ enum Command {
     Trace(TraceArgs),
 }
 
-/// Draws one picture of a scene, without a window.
-///
-/// A .png holds the finished picture; an .exr linear light (R, G, B) and with --layers object.id, image.order, travel.time (r_s/c) and
-/// frequency.ratio (g = ν_observed/ν_emitted) of the nearest surface.
-#[cfg(feature = "game")]
+// What a picture shows. (No docstring: clap would take it for the command's.)
 #[derive(Args)]
-struct ShotArgs {
+struct Shown {
     /// The scene: a TOML file, or the name of one in assets/scenes; or a moment that the dev overlay has saved.
     #[arg(long, value_name = "NAME|FILE", required_unless_present = "from")]
     #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes; or a moment that the dev overlay has saved."))]
@@ -75,15 +69,11 @@ struct ShotArgs {
     /// Instead of a scene, the moment that a PNG of the game carries: its flight, T, camera and settings.
     #[arg(long, value_name = "PICTURE.png", conflicts_with_all = ["scene", "at", "config", "set"])]
     from: Option<PathBuf>,
-    /// Width and height in pixels [default: 1280x720, with --from that of the picture].
-    #[arg(long, value_name = "WxH", value_parser = lensrunner::render::shot::size)]
-    size: Option<[u32; 2]>,
-    /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed).
-    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
-    at: f64,
-    /// Adds object id, image order, travel time and g to an .exr.
-    #[arg(long)]
-    layers: bool,
+}
+
+// Settings and file of a picture.
+#[derive(Args)]
+struct PictureOut {
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
@@ -95,6 +85,28 @@ struct ShotArgs {
     output: PathBuf,
 }
 
+/// Draws one picture of a scene, without a window.
+///
+/// A .png holds the finished picture; an .exr linear light (R, G, B) and with --layers object.id, image.order, travel.time (r_s/c) and
+/// frequency.ratio (g = ν_observed/ν_emitted) of the nearest surface.
+#[cfg(feature = "game")]
+#[derive(Args)]
+struct ShotArgs {
+    #[command(flatten)]
+    shown: Shown,
+    /// Width and height in pixels [default: 1280x720, with --from that of the picture].
+    #[arg(long, value_name = "WxH", value_parser = lensrunner::render::shot::size)]
+    size: Option<[u32; 2]>,
+    /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed).
+    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
+    at: f64,
+    /// Adds object id, image order, travel time and g to an .exr.
+    #[arg(long)]
+    layers: bool,
+    #[command(flatten)]
+    picture: PictureOut,
+}
+
 /// Traces one picture of a scene, each pixel by a light ray of its own: the exact picture that the game's is judged by.
 ///
 /// A .png holds the finished picture; an .exr linear light (R, G, B) and with --layers what the centre of each pixel shows: object.id,
@@ -102,13 +114,8 @@ struct ShotArgs {
 /// (g = ν_observed/ν_emitted).
 #[derive(Args)]
 struct TraceArgs {
-    /// The scene: a TOML file, or the name of one in assets/scenes; or a moment that the dev overlay has saved.
-    #[arg(long, value_name = "NAME|FILE", required_unless_present = "from")]
-    #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes; or a moment that the dev overlay has saved."))]
-    scene: Option<String>,
-    /// Instead of a scene, the moment that a PNG of the game carries: its flight, T, camera and settings.
-    #[arg(long, value_name = "PICTURE.png", conflicts_with_all = ["scene", "at", "config", "set"])]
-    from: Option<PathBuf>,
+    #[command(flatten)]
+    shown: Shown,
     /// Width and height in pixels [default: 1280x720, with --from that of the picture].
     #[arg(long, value_name = "WxH", value_parser = scene::picture_size)]
     size: Option<[u32; 2]>,
@@ -137,15 +144,8 @@ struct TraceArgs {
     /// Adds what each pixel shows to an .exr.
     #[arg(long)]
     layers: bool,
-    /// The game's configuration [default: game.toml here, else the one that the game comes with].
-    #[arg(long, value_name = "game.toml")]
-    config: Option<PathBuf>,
-    /// Sets a value over the configuration, as render.orders=3; may be repeated.
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<Assignment>,
-    /// The picture: .png or .exr.
-    #[arg(short, value_name = "FILE")]
-    output: PathBuf,
+    #[command(flatten)]
+    picture: PictureOut,
 }
 
 /// Plays a scene without graphics, as fast as it goes, and writes the ships' states as CSV.
@@ -340,31 +340,31 @@ fn main() -> ExitCode {
 #[cfg(feature = "game")]
 fn run_shot(args: &ShotArgs) -> ExitCode {
     lensrunner::play::warn_on_stderr();
-    if args.layers && args.output.extension().is_some_and(|extension| extension != "exr") {
-        return fail(&format!("{}: layers are written to .exr only", args.output.display()), 2);
+    if args.layers && args.picture.output.extension().is_some_and(|extension| extension != "exr") {
+        return fail(&format!("{}: layers are written to .exr only", args.picture.output.display()), 2);
     }
     use lensrunner::render::shot::{ShotRequest, shot_again_to_file, shot_to_file};
-    let is_light = args.output.extension().is_some_and(|extension| extension == "exr");
-    if let Some(from) = &moment_of(args.scene.as_deref(), args.from.as_deref()) {
-        if let Err(error) = alone(args.at, args.config.as_ref(), &args.set) {
+    let is_light = args.picture.output.extension().is_some_and(|extension| extension == "exr");
+    if let Some(from) = &moment_of(args.shown.scene.as_deref(), args.shown.from.as_deref()) {
+        if let Err(error) = alone(args.at, &args.picture) {
             return fail(&error, 2);
         }
-        let (snapshot, moment) = match flown_again(from, args.size) {
+        let (snapshot, moment) = match case::flown_again(from, args.size) {
             Ok(flown) => flown,
             Err(error) => return fail(&error, 2),
         };
-        return match shot_again_to_file(&snapshot, &moment, args.layers, !is_light, &args.output) {
+        return match shot_again_to_file(&snapshot, &moment, args.layers, !is_light, &args.picture.output) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => fail_shot(&error),
         };
     }
-    let scene = args.scene.as_deref().unwrap_or_default();
+    let scene = args.shown.scene.as_deref().unwrap_or_default();
     let request = ShotRequest { scene, size: args.size.unwrap_or(SIZE), at: args.at, layers: args.layers, fill: !is_light };
-    let config = match scene::config::find_with(args.config.as_deref(), &args.set) {
+    let config = match scene::config::find_with(args.picture.config.as_deref(), &args.picture.set) {
         Ok(config) => config,
         Err(error) => return fail(&error, 2),
     };
-    match shot_to_file(&request, &config, &args.output) {
+    match shot_to_file(&request, &config, &args.picture.output) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => fail_shot(&error),
     }
@@ -375,16 +375,9 @@ fn fail_shot(error: &lensrunner::render::shot::ShotError) -> ExitCode {
     fail(error, if error.is_input() { 2 } else { 1 })
 }
 
-/// The moment in a file, flown again, to be drawn in `size` pixels or those of the picture.
-fn flown_again(from: &Path, size: Option<[u32; 2]>) -> Result<(Snapshot, Moment), Box<dyn std::error::Error>> {
-    let snapshot = Snapshot::from_text(from, &read_moment(from)?)?;
-    let moment = snapshot.fly(from)?;
-    Ok((snapshot.resized(size.unwrap_or(snapshot.size)), moment))
-}
-
 /// A moment has a T and settings of its own.
-fn alone(at: f64, config: Option<&PathBuf>, set: &[Assignment]) -> Result<(), String> {
-    if at == 0.0 && config.is_none() && set.is_empty() {
+fn alone(at: f64, picture: &PictureOut) -> Result<(), String> {
+    if at == 0.0 && picture.config.is_none() && picture.set.is_empty() {
         return Ok(());
     }
     Err("a moment has its own T and settings: --at, --config and --set do not go with it".into())
@@ -400,7 +393,7 @@ fn tell_progress(share: f64) {
 
 fn run_trace(args: &TraceArgs) -> ExitCode {
     let request = case::TraceRequest {
-        scene: args.scene.clone().unwrap_or_default(),
+        scene: args.shown.scene.clone().unwrap_or_default(),
         size: args.size.unwrap_or(SIZE),
         at: args.at,
         samples: args.samples,
@@ -410,15 +403,15 @@ fn run_trace(args: &TraceArgs) -> ExitCode {
         limit: args.limit,
     };
     let progress = args.progress.then_some(&tell_progress as &(dyn Fn(f64) + Sync));
-    let output = to_file::Output { file: &args.output, layers: args.layers, text: None, progress };
-    let traced = match &moment_of(args.scene.as_deref(), args.from.as_deref()) {
-        None => scene::config::find_with(args.config.as_deref(), &args.set)
+    let output = to_file::Output { file: &args.picture.output, layers: args.layers, text: None, progress };
+    let traced = match &moment_of(args.shown.scene.as_deref(), args.shown.from.as_deref()) {
+        None => scene::config::find_with(args.picture.config.as_deref(), &args.picture.set)
             .map_err(case::TraceError::from)
             .and_then(|config| to_file::trace_to_file(&request, &config, &output)),
         // A wrong argument is said before the flight is flown.
         Some(from) => to_file::check(&request, &output).and_then(|_| {
-            alone(args.at, args.config.as_ref(), &args.set).map_err(case::TraceError::Input)?;
-            let (snapshot, moment) = flown_again(from, args.size).map_err(|error| case::TraceError::Input(error.to_string()))?;
+            alone(args.at, &args.picture).map_err(case::TraceError::Input)?;
+            let (snapshot, moment) = case::flown_again(from, args.size).map_err(|error| case::TraceError::Input(error.to_string()))?;
             let (text, request) = (snapshot.to_text(), case::TraceRequest { at: snapshot.time, ..request });
             let case = case::Case::again(&snapshot, &moment, snapshot.size);
             to_file::trace_case(&case, &request, &to_file::Output { text: Some(&text), ..output })

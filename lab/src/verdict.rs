@@ -7,11 +7,9 @@ use clap::Args;
 use lensrunner::argument::{number, whole};
 use lensrunner::judge::case::{self, Case};
 use lensrunner::judge::picture::DEFAULT_PACKET;
-use lensrunner::picture_file::moment::{moment_of, read_moment};
+use lensrunner::picture_file::moment::moment_of;
 use lensrunner::scene;
 use lensrunner::scene::crew::Crew;
-use lensrunner::sim::Moment;
-use lensrunner::sim::snapshot::Snapshot;
 use lensrunner_lab::compare::{command, flight, judged::Terms, random};
 use lensrunner_lab::contestant::Contestant;
 
@@ -129,7 +127,7 @@ pub fn run(args: &CompareArgs) -> ExitCode {
             return fail(&"a moment has its own T and settings: --at, --config and --table do not go with it", 2);
         }
         let output = args.output.clone().unwrap_or_default();
-        let (snapshot, moment) = match flown_again(from, args.size) {
+        let (snapshot, moment) = match case::flown_again(from, args.size) {
             Ok(flown) => flown,
             Err(error) => return fail(&error, 2),
         };
@@ -159,11 +157,4 @@ pub fn run(args: &CompareArgs) -> ExitCode {
 fn trace_request(args: &CompareArgs, scene: String, size: [u32; 2], at: f64) -> case::TraceRequest {
     let tolerance = args.tolerance.unwrap_or(case::DEFAULT_TOLERANCE);
     case::TraceRequest { scene, size, at, samples: args.samples, threads: 0, tolerance, packet: DEFAULT_PACKET, limit: args.limit }
-}
-
-/// The moment in a file, flown again, to be drawn in `size` pixels or those of the picture.
-fn flown_again(from: &Path, size: Option<[u32; 2]>) -> Result<(Snapshot, Moment), Box<dyn std::error::Error>> {
-    let snapshot = Snapshot::from_text(from, &read_moment(from)?)?;
-    let moment = snapshot.fly(from)?;
-    Ok((snapshot.resized(size.unwrap_or(snapshot.size)), moment))
 }

@@ -1,5 +1,6 @@
 //! A scene's picture by the judge, every pixel by a geodesic of its own.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use glam::{DQuat, DVec3};
@@ -10,6 +11,7 @@ use crate::judge::picture::sky::{Background, stars};
 use crate::judge::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Surroundings, Sway, Thing, World, Worldline, picture};
 use crate::judge::trace::PixelCamera;
 use crate::picture_file::PictureFileError;
+use crate::picture_file::moment::read_moment;
 use crate::scene::camera::viewpoint::CameraEnded;
 use crate::scene::disk::Gas;
 use crate::scene::lighting::Lights;
@@ -43,6 +45,13 @@ pub struct TraceRequest {
     pub packet: u32,
     /// How long the tracing may take, in seconds; None for as long as it needs.
     pub limit: Option<f64>,
+}
+
+/// The moment in a file, flown again, to be drawn in `size` pixels or those of the picture.
+pub fn flown_again(from: &Path, size: Option<[u32; 2]>) -> Result<(Snapshot, Moment), Box<dyn std::error::Error>> {
+    let snapshot = Snapshot::from_text(from, &read_moment(from)?)?;
+    let moment = snapshot.fly(from)?;
+    Ok((snapshot.resized(size.unwrap_or(snapshot.size)), moment))
 }
 
 /// The time for a picture was up before it was finished.

@@ -9,7 +9,7 @@ use bevy::prelude::World;
 use glam::{DQuat, DVec3};
 use serde::Deserialize;
 
-use super::replay::{Replay, ReplayError, settings, settings_text};
+use super::replay::{Replay, ReplayError, settings, settings_text, with_settings};
 use super::ship::Player;
 use super::{Fleet, Moment};
 use crate::scene::config::{self, Value};
@@ -175,14 +175,7 @@ impl Snapshot {
 
     /// `game.toml` as it was when the picture was made, before the difficulty; what neither picture nor flight depends on is the default.
     pub fn config(&self) -> GameConfig {
-        let mut config = self.flight.config(&GameConfig::default());
-        for (path, value) in &self.settings {
-            if let Some(setting) = config::setting(path) {
-                // Checked as it was read.
-                let _ = setting.set(&mut config, value.clone());
-            }
-        }
-        config
+        with_settings(self.flight.config(&GameConfig::default()), &self.settings)
     }
 
     /// The same as the mission of `scene` has it on the difficulty of the flight.

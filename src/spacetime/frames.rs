@@ -5,11 +5,6 @@ use glam::{DMat3, DMat4, DQuat, DVec3, DVec4};
 
 use super::matter::{ShipState, gamma};
 
-/// The four-velocity (p, γ) on the rain tetrad.
-pub fn four_velocity(momentum: DVec3) -> DVec4 {
-    momentum.extend(gamma(momentum))
-}
-
 /// The Minkowski product of two four-vectors on one orthonormal tetrad.
 pub fn dot(a: DVec4, b: DVec4) -> f64 {
     a.truncate().dot(b.truncate()) - a.w * b.w

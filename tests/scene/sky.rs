@@ -115,7 +115,6 @@ fn direction_and_picture_agree() {
         (Vec3::new(0.6, 0.0, 0.8), Vec2::new(0.0, 0.204_832_76)),
     ] {
         assert!(milky_way::direction_to_uv(direction).distance(uv) < 1e-6);
-        assert!(milky_way::uv_to_direction(uv).distance(direction) < 1e-6);
     }
     assert_eq!(milky_way::direction_to_uv(Vec3::Z).y, 0.0);
 }

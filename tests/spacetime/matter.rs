@@ -4,9 +4,9 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DQuat, DVec3, DVec4};
-use lensrunner::spacetime::frames::{boost, dot, four_velocity, rain_to_ship, relative_velocity, ship_to_rain};
+use lensrunner::spacetime::frames::{boost, dot, rain_to_ship, relative_velocity, ship_to_rain};
 use lensrunner::spacetime::matter::{
-    ShipState, angular_momentum, boosted_acceleration, came_out_of_the_hole, energy, has_ended, momentum_of, rate, runge_kutta,
+    ShipState, angular_momentum, boosted_acceleration, came_out_of_the_hole, energy, gamma, has_ended, momentum_of, rate, runge_kutta,
     static_speed, step, step_until, velocity,
 };
 use lensrunner::spacetime::orbit::{Elements, circular_orbit, orbital_frequency, static_momentum};
@@ -305,7 +305,7 @@ proptest! {
         let there = rain_to_ship(state.momentum, state.attitude);
         let back = ship_to_rain(state.momentum, state.attitude);
         prop_assert!((there * back).abs_diff_eq(glam::DMat4::IDENTITY, 1e-12));
-        let rest = there * four_velocity(state.momentum);
+        let rest = there * state.momentum.extend(gamma(state.momentum));
         prop_assert!((rest - DVec4::W).length() < 1e-12, "the ship rests in its own frame");
         for (i, a) in [back.x_axis, back.y_axis, back.z_axis, back.w_axis].iter().enumerate() {
             for (j, b) in [back.x_axis, back.y_axis, back.z_axis, back.w_axis].iter().enumerate() {

@@ -3,8 +3,8 @@
 use clap::Args;
 use glam::DVec3;
 use lensrunner::argument::whole;
-use lensrunner::scene::camera::static_momentum;
 use lensrunner::scene::{GameConfig, picture_size};
+use lensrunner::spacetime::orbit::static_momentum;
 use lensrunner::spacetime::{Observer, frames};
 
 use crate::chart::Output;

@@ -2,6 +2,8 @@
 
 use glam::{Vec2, Vec3};
 
+use crate::scene::model::texture::encode_srgb;
+
 /// How a picture is finished.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PostProcess {
@@ -90,7 +92,7 @@ pub fn post_process(light: &[[f32; 3]], size: [u32; 2], how: &PostProcess) -> Ve
             // Half a step of 8-bit noise against banding in the dark.
             let noise = (52.982_918 * (place.dot(Vec2::new(0.067_110_56, 0.005_837_15))).fract()).fract() - 0.5;
             let rgb = (tone_curve(exposed) + noise / 1024.0).max(Vec3::ZERO);
-            bytes.extend(rgb.to_array().map(encode));
+            bytes.extend(rgb.to_array().map(encode_srgb));
         }
     }
     bytes
@@ -129,11 +131,4 @@ fn tone_curve(x: Vec3) -> Vec3 {
     let t = ((mapped - 0.6) / 0.4).clamp(0.0, 1.0);
     let bleach = t * t * (3.0 - 2.0 * t);
     coloured.lerp(Vec3::ONE - (Vec3::ONE - coloured) * (1.0 - bleach), bleach)
-}
-
-/// Linear to sRGB, 8 bits (IEC 61966-2-1).
-fn encode(linear: f32) -> u8 {
-    let linear = linear.clamp(0.0, 1.0);
-    let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
-    (encoded * 255.0).round() as u8
 }

@@ -259,10 +259,3 @@ fn welcome(
         *notice = Notice { text: words.join("\n"), until: real.elapsed_secs_f64() + 0.5, share: None };
     }
 }
-
-/// What a key asks of the menu that is not on the screen yet.
-pub fn show_page(world: &mut World, page: Page) {
-    world.init_resource::<Menu>();
-    world.resource_mut::<Menu>().open(page);
-    world.write_message(MenuAction::Pause);
-}

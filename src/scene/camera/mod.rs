@@ -32,7 +32,7 @@ use crate::scene::planet::Planet;
 use crate::scene::ship::{MAX_START_MOMENTUM, ShipSpec};
 use crate::spacetime::frames;
 use crate::spacetime::matter::ShipState;
-use crate::spacetime::metric::river_speed;
+use crate::spacetime::orbit::static_momentum;
 use crate::user_file::short;
 
 /// The nearest a camera may start to the singularity, in r_s.
@@ -93,13 +93,6 @@ pub fn picture_size(text: &str) -> Result<[u32; 2], String> {
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
     let side = |text: &str| text.parse().ok().filter(|side| (1..=8192).contains(side)).ok_or_else(wrong);
     Ok([side(width)?, side(height)?])
-}
-
-/// The rain-frame momentum per mass of an observer at rest at `position`: γβn with γ = (1 − β²)^{-1/2}; `None` at r ≤ 1.
-pub fn static_momentum(position: DVec3) -> Option<DVec3> {
-    let r = position.length();
-    let beta = river_speed(r);
-    (r > 1.0).then(|| position * (beta / (r * (1.0 - beta * beta).sqrt())))
 }
 
 /// `[camera]` as the file has it, before any check.

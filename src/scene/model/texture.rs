@@ -134,7 +134,7 @@ fn draw(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [u8; 4] + Sync) -> 
 }
 
 /// Linear to sRGB, 8 bits (IEC 61966-2-1).
-fn encode_srgb(linear: f32) -> u8 {
+pub fn encode_srgb(linear: f32) -> u8 {
     let linear = linear.clamp(0.0, 1.0);
     let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     (encoded * 255.0).round() as u8

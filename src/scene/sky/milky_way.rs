@@ -148,12 +148,6 @@ pub fn direction_to_uv(direction: Vec3) -> Vec2 {
     Vec2::new(u - u.floor(), 0.5 - direction.z.clamp(-1.0, 1.0).asin() / PI)
 }
 
-/// The direction (unit vector) of a point of the picture.
-pub fn uv_to_direction(uv: Vec2) -> Vec3 {
-    let (ra, dec) = (TAU * uv.x, PI * (0.5 - uv.y));
-    Vec3::new(dec.cos() * ra.cos(), dec.cos() * ra.sin(), dec.sin())
-}
-
 /// Temperatures, in K, of the black bodies that have the colours of the faintest and of the brightest parts: the outer parts are as white
 /// as young stars, the bulge is yellow.
 pub const TEMPERATURES: [f64; 2] = [7200.0, 4700.0];

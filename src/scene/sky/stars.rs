@@ -8,8 +8,6 @@ use glam::{DVec3, Vec3};
 
 use crate::game_files::{self, GameFile};
 
-/// The illuminance of a star of magnitude 0 outside the atmosphere, in lux (Allen's *Astrophysical Quantities*, 4th edition, V = 0).
-pub const MAGNITUDE_ZERO_LUX: f64 = 2.54e-6;
 /// The B−V taken for a star without one: that of the Sun.
 pub const DEFAULT_B_MINUS_V: f32 = 0.65;
 /// The scene's unit of radiance (a white surface in full light) holds this part of one star of magnitude 0 per steradian: bright enough
@@ -29,7 +27,7 @@ const RECORD: usize = 12;
 pub struct Star {
     /// Unit vector towards it.
     pub direction: Vec3,
-    /// Its light, in units of a star of magnitude 0 ([`MAGNITUDE_ZERO_LUX`]): 10^(−0.4 Hp).
+    /// Its light, in units of a star of magnitude 0 (2.54e-6 lux; Allen's *Astrophysical Quantities*, 4th edition): 10^(−0.4 Hp).
     pub flux: f32,
     /// Effective temperature in K, from B−V.
     pub temperature: f32,

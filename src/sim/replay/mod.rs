@@ -155,14 +155,7 @@ impl Replay {
 
     /// `game.toml` as it was flown by, but for the difficulty; what the flight does not depend on is as in `config`.
     pub fn config(&self, config: &GameConfig) -> GameConfig {
-        let mut config = config.clone();
-        for (path, value) in &self.settings {
-            if let Some(setting) = config::setting(path) {
-                // Checked as it was read.
-                let _ = setting.set(&mut config, value.clone());
-            }
-        }
-        config
+        with_settings(config.clone(), &self.settings)
     }
 
     /// Its text.
@@ -306,6 +299,16 @@ pub fn record(scene: &Scene, config: &GameConfig, request: &RunRequest) -> (Flig
     let mut replay = app.world_mut().remove_resource::<ReplayLog>().map_or(begun, |recording| recording.0);
     replay.finish(app.world());
     (report, replay)
+}
+
+/// `config` with these values, which were checked as they were read.
+pub(in crate::sim) fn with_settings(mut config: GameConfig, settings: &[(String, Value)]) -> GameConfig {
+    for (path, value) in settings {
+        if let Some(setting) = config::setting(path) {
+            let _ = setting.set(&mut config, value.clone());
+        }
+    }
+    config
 }
 
 /// Settings as a table, inline.

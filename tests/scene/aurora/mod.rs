@@ -1,8 +1,10 @@
 //! Tests of `src/scene/aurora/`.
 
-mod curtains;
+mod curve;
+mod fall;
 mod fang;
 mod ground;
 mod heights;
 mod lines;
+mod motion;
 mod nodes;
