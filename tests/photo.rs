@@ -96,7 +96,7 @@ fn assert_same(name: &str, before: &[u8], again: &[u8]) {
     let differ = before.iter().zip(again).filter(|(a, b)| a != b).count();
     let off = before.iter().zip(again).filter(|(a, b)| a.abs_diff(**b) > 1).count();
     println!("{name}: {differ} values differ, {off} by more than 1");
-    assert!(before.len() == again.len() && off * 500 <= again.len(), "{name}: {off} values differ by more than 1");
+    assert!(before.len() == again.len() && off * 500 <= again.len());
 }
 
 /// From the file alone the game's picture comes again, once the eye has adapted; the judge's shows the same bodies at
@@ -118,7 +118,7 @@ fn a_picture_is_made_again_from_its_file() {
         assert_same(name, &rgb(&picture), &rgb(&again));
         let differ = picture.layers.iter().zip(&again.layers).filter(|(a, b)| a != b).count();
         println!("{name}: layers of {differ} pixels have other bits");
-        assert!(differ * 500 <= again.layers.len(), "{name}: {differ} pixels show other points");
+        assert!(differ * 500 <= again.layers.len());
         let case = Case::again(&snapshot, &moment, SIZE);
         let quality = Quality { samples: 1, tolerance: DEFAULT_TOLERANCE, packet: DEFAULT_PACKET };
         let judge = case.trace(&quality, true, &|_| ());
@@ -139,7 +139,7 @@ fn a_picture_is_made_again_from_its_file() {
         let differ = picture.layers.iter().zip(&judge.layers).filter(|(game, judge)| game[0] as u32 != judge.object).count();
         let solid = judge.layers.iter().filter(|layer| layer.object > 0).count();
         println!("{name}: {differ} of {solid} solid pixels differ");
-        assert!(differ <= 2 + solid / 25, "{name}: {differ} of {solid} pixels differ");
+        assert!(differ <= 2 + solid / 25);
     }
 }
 

@@ -25,7 +25,7 @@ fn a_globe_of_fewer_triangles_tells_which_points_it_shows() {
     let mean = off.iter().sum::<f64>() / off.len() as f64;
     println!("{} pixels, mean {} of the radius", off.len(), mean / radius);
     // Measured 0.0032.
-    assert!(mean < 0.01 * radius, "points are {mean} off in the mean, of a globe of {radius}");
+    assert!(mean < 0.01 * radius);
 }
 
 #[test]
@@ -43,7 +43,6 @@ fn thin_images_of_a_ship_cover_what_the_judge_sees_of_them() {
     let drawn: Vec<f32> = frame.shown.iter().filter(|shown| shown.order == 2).map(|shown| shown.coverage).collect();
     let sum: f32 = drawn.iter().sum();
     println!("{sum} drawn in {} pixels, {seen} seen", drawn.len());
-    assert!(drawn.len() > 40, "drawn in {} pixels", drawn.len());
     // Measured 0.655 and 0.667.
-    assert!((sum - seen).abs() < 0.04, "{sum} pixels are drawn, {seen} seen");
+    assert!(drawn.len() > 40 && (sum - seen).abs() < 0.04);
 }

@@ -106,7 +106,7 @@ fn a_ship_in_hands_is_drawn_where_it_is() {
     let sheet = tally.sheet();
     let all = sheet.rows.last().unwrap();
     println!("{}", tally.text());
-    assert!(sheet.number(all, "own_points") > 500.0 && sheet.number(all, "own_p99_px") < 0.25, "{}", tally.text());
+    assert!(sheet.number(all, "own_points") > 500.0 && sheet.number(all, "own_p99_px") < 0.25);
 }
 
 #[test]

@@ -136,7 +136,7 @@ fn images_are_dimmed_by_what_of_the_disk_is_before_them() {
                 let off = if left.order > 1 { 0.08 } else { 0.04 };
                 let place = PLACES[left.number - 1];
                 println!("{representation} from {eye} under {degrees}°, ball of {size} at {place}: {left:?}");
-                assert!((left.drawn - left.exact).abs() < off, "{representation} from {eye}, ball of {size} at {place}: {left:?}");
+                assert!((left.drawn - left.exact).abs() < off);
                 found[left.order as usize][left.crossings[0]] += 1;
             }
         }
@@ -198,6 +198,6 @@ fn a_thin_body_astride_the_disk_keeps_the_light_of_both_its_parts() {
         let wide = &left(&mut renderer, nearer(&camera, [x / light, y / light], 12.0), &[ball], &config, &settings())[0];
         println!("ball at {}: {drawn:.3} of its light is left, {:.3} by the exact gas", ball.0, wide.exact);
         // Half an hundredth for nine places in a pixel, and as much for fifty pixels across the body that tells.
-        assert!((drawn - wide.exact).abs() < 0.02, "ball at {}: {drawn} of its light is left, {} by the exact gas", ball.0, wide.exact);
+        assert!((drawn - wide.exact).abs() < 0.02);
     }
 }

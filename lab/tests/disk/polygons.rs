@@ -51,9 +51,8 @@ fn a_ring_is_seen_where_it_was() {
             checked += 1;
         }
         println!("L = {l}, {degrees}°: {checked} corners off by at most {worst:.4} r_s, light paths by {farthest:.4} r_s");
-        assert!(checked > 300, "{checked} corners");
         // A pixel covers 0.024 r_s of the disk from 27 r_s: an eighth of one. Measured: 7e-4.
-        assert!(worst < 0.003 && farthest < 0.003, "L = {l}, {degrees}°: off by {worst} r_s, light paths by {farthest} r_s");
+        assert!(checked > 300 && worst < 0.003 && farthest < 0.003);
     }
 }
 
@@ -83,8 +82,7 @@ fn rings_that_turn_show_the_gas_of_those_at_rest() {
             .filter(|&k| [k - 1, k + 1, k - width, k + width].into_iter().all(|beside| shines(&turning, beside)))
             .count();
         println!("{degrees}°: {:.1} dB, {holes} holes", error.psnr);
-        assert!(holes == 0, "{degrees}°: {holes} holes");
-        assert!(error.psnr > 30.0, "{degrees}°: {:.1} dB", error.psnr);
+        assert!(holes == 0 && error.psnr > 30.0);
     }
 }
 
@@ -108,11 +106,11 @@ fn polygons_are_seen_from_within_their_plane() {
     for (representation, off) in [("polygons-at-rest", 0.06), ("polygons", 0.12)] {
         let in_plane = light(representation, 0.0);
         println!("{representation}: {:.3} of the light of arcs from within the plane", in_plane / arcs);
-        assert!((in_plane / arcs - 1.0).abs() < off, "{representation}: {in_plane}, arcs {arcs}");
+        assert!((in_plane / arcs - 1.0).abs() < off);
         for height in [1e-4, -1e-4, 0.01, 0.03] {
             let part = light(representation, height) / in_plane;
             println!("{representation}: {part:.3} of that from {height} r_s");
-            assert!((part - 1.0).abs() < off, "{representation}: {part} of the light within the plane from {height} r_s");
+            assert!((part - 1.0).abs() < off);
         }
     }
 }

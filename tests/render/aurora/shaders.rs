@@ -228,7 +228,7 @@ fn a_planet_far_away_has_a_history() {
         for time in [-back, 0.0] {
             let off = history.at(time).position.distance(planet.state(time).unwrap().position);
             println!("{back} r_s/c back: off by {off}");
-            assert!(off < 1e-6, "at T = {time} of {back} it is off by {off}");
+            assert!(off < 1e-6);
         }
     }
 }

@@ -138,7 +138,7 @@ fn rings_from_near_are_as_true_as_they_are_held_to_be() {
             }
         }
         println!("{rings} rings: {worst:.5?} across, along, of light, of what is stopped");
-        assert!(rings > 5, "{rings} rings");
+        assert!(rings > 5);
         for (worst, bound) in worst.into_iter().zip([0.1, 1.0, 0.001, 0.005]) {
             // Circles that were not tried are off by up to a quarter more.
             assert!(worst < 1.3 * bound, "off by {worst}, must be {bound}");
@@ -196,7 +196,7 @@ fn no_edge_is_seen_where_the_azimuth_changes_its_sign() {
     }
     println!("steps are larger by {worst:.4} of the light than those beside them");
     // 0.006; 0.2 where each side has its own light up to the first of the azimuths at which it is told.
-    assert!(worst < 0.02, "{worst}");
+    assert!(worst < 0.02);
 }
 
 /// What the dial may leave out of the disk: wider rings are fewer, and neither they nor fewer looks along a pixel change its light.
