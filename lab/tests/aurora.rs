@@ -57,6 +57,27 @@ fn luminous_ends(points: &[Point], axis: [f32; 2]) -> [f64; 2] {
     })
 }
 
+/// The luminous ends of `points` and the true ones, where they differ by more than 1 % of the length and half a pixel. The truth: light of
+/// the streak as in `exact`, each point where `seen` says (in camera axes).
+fn wrong_ends(points: &[Point], eye: &Eye, streak: &Streak, exact: &[Point], seen: impl Fn(DVec3) -> DVec3) -> Option<[[f64; 2]; 2]> {
+    let placed = |point: &Point| {
+        let z = f64::from(FALLS_TABLE.heights[point.level as usize]);
+        let s = (TOP - z) / (TOP - f64::from(streak.end_height));
+        let seen = seen(streak.top.as_dvec3().lerp(streak.end.as_dvec3(), s));
+        let f = f64::from(eye.focal) / -seen.z;
+        Point { x: (960.0 + f * seen.x) as f32, y: (540.0 - f * seen.y) as f32, ..*point }
+    };
+    let want: Vec<Point> = exact.iter().map(placed).collect();
+    assert!(want.len() > 10);
+    let (first, last) = (want[0], want[want.len() - 1]);
+    let d = [last.x - first.x, last.y - first.y];
+    let norm = d[0].hypot(d[1]).max(1e-6);
+    let [truth, got] = [&want[..], points].map(|points| luminous_ends(points, [d[0] / norm, d[1] / norm]));
+    let length = |ends: [f64; 2]| ends[1] - ends[0];
+    let allowed = (0.01 * length(truth)).max(0.5);
+    ((length(got) - length(truth)).abs() > allowed || (got[0] - truth[0]).abs() > allowed).then_some([got, truth])
+}
+
 /// A camera that sees the middle of a streak at `degrees` between line of sight and field, `distance` km away.
 fn tilted(streak: &Streak, degrees: f64, distance: f64) -> Eye {
     let up = field_direction();
@@ -70,42 +91,16 @@ fn tilted(streak: &Streak, degrees: f64, distance: f64) -> Eye {
 #[test]
 fn luminous_length_is_right_at_every_angle() {
     let streak = Sheet::numbered(4).streaks(40)[7];
-    // The line integral of one streak, with a projection of its own: what the walk has to reproduce.
+    // Held against the line integral of one streak, with a projection of its own.
     let mut linear_fails = 0;
     for degrees in (1..=90).map(f64::from) {
         let eye = tilted(&streak, degrees, 130.0);
         let straight = |method| points_of(&STRAIGHT, method, &eye, std::slice::from_ref(&streak)).remove(0);
         let exact = straight(Method::Exact);
-        let want: Vec<Point> = exact
-            .iter()
-            .map(|point| {
-                let z = f64::from(FALLS_TABLE.heights[point.level as usize]);
-                let s = (TOP - z) / (TOP - f64::from(streak.end_height));
-                let place = streak.top.as_dvec3().lerp(streak.end.as_dvec3(), s);
-                let axes = eye.axes.as_dmat3();
-                let seen = axes * (place - eye.position.as_dvec3());
-                let f = f64::from(eye.focal) / -seen.z;
-                Point { x: (960.0 + f * seen.x) as f32, y: (540.0 - f * seen.y) as f32, ..*point }
-            })
-            .collect();
-        assert!(want.len() > 10);
-        let (first, last) = (want[0], want[want.len() - 1]);
-        let d = [last.x - first.x, last.y - first.y];
-        let norm = d[0].hypot(d[1]).max(1e-6);
-        let axis = [d[0] / norm, d[1] / norm];
-        let length = |ends: [f64; 2]| ends[1] - ends[0];
-        let truth = luminous_ends(&want, axis);
-        // max(1 %, 0.5 px): the requirement, and nothing beside it.
-        let allowed = (0.01 * length(truth)).max(0.5);
-        for (method, fails) in [(Method::Exact, false), (Method::Linear, true)] {
-            let got = luminous_ends(&straight(method), axis);
-            let wrong = (length(got) - length(truth)).abs() > allowed || (got[0] - truth[0]).abs() > allowed;
-            if fails {
-                linear_fails += u32::from(wrong);
-            } else {
-                assert!(!wrong, "{method:?} at {degrees}°: ends {got:?}, truth {truth:?}, allowed {allowed} px");
-            }
-        }
+        let seen = |place: DVec3| eye.axes.as_dmat3() * (place - eye.position.as_dvec3());
+        let wrong = |points: &[Point]| wrong_ends(points, &eye, &streak, &exact, seen);
+        assert_eq!(wrong(&exact), None, "at {degrees}°");
+        linear_fails += u32::from(wrong(&straight(Method::Linear)).is_some());
     }
     assert!(linear_fails > 45, "the linear walk was wrong at {linear_fails} of 90 angles only: the test sees nothing");
 }
@@ -142,26 +137,8 @@ fn luminous_length_is_right_through_bent_light() {
             let off = bent.origin.as_dvec3() + bent.place.as_dmat3() * lit + DVec3::Z * 12.0 - target;
             let eye = from(target - off);
             let exact = points_of(&STRAIGHT, Method::Exact, &eye, &streaks).remove(7);
-            let want: Vec<Point> = exact
-                .iter()
-                .map(|point| {
-                    let z = f64::from(FALLS_TABLE.heights[point.level as usize]);
-                    let s = (TOP - z) / (TOP - f64::from(streak.end_height));
-                    let seen = by_exact_ray(&eye, streak.top.as_dvec3().lerp(streak.end.as_dvec3(), s));
-                    let f = f64::from(eye.focal) / -seen.z;
-                    Point { x: (960.0 + f * seen.x) as f32, y: (540.0 - f * seen.y) as f32, ..*point }
-                })
-                .collect();
-            assert!(want.len() > 10);
-            let (first, last) = (want[0], want[want.len() - 1]);
-            let d = [last.x - first.x, last.y - first.y];
-            let norm = d[0].hypot(d[1]).max(1e-6);
-            let axis = [d[0] / norm, d[1] / norm];
-            let (truth, got) = (luminous_ends(&want, axis), luminous_ends(&exact, axis));
-            let length = |ends: [f64; 2]| ends[1] - ends[0];
-            let allowed = (0.01 * length(truth)).max(0.5);
-            let wrong = (length(got) - length(truth)).abs() > allowed || (got[0] - truth[0]).abs() > allowed;
-            assert!(!wrong, "order {order}, {degrees}°: ends {got:?}, truth {truth:?}, allowed {allowed} px");
+            let wrong = wrong_ends(&exact, &eye, streak, &exact, |place| by_exact_ray(&eye, place));
+            assert_eq!(wrong, None, "order {order}, {degrees}°");
         }
     }
 }

@@ -4,9 +4,10 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use glam::{DQuat, DVec3};
 use lensrunner::judge::case::Case;
-use lensrunner::judge::picture::{Motion, Pose, Quality, Seen, Sway, Thing, World, Worldline};
-use lensrunner::scene::lighting::Illumination;
-use lensrunner::scene::{GameConfig, Material, Model, Scene, Vertex};
+use lensrunner::judge::picture::{Motion, Pose, Quality, Seen, Sway, World, Worldline};
+use lensrunner::scene::{GameConfig, Scene};
+
+use crate::judge::{model, thing};
 
 /// A worldline that counts how often it is asked anything.
 struct Counted<'a> {
@@ -101,17 +102,9 @@ impl Worldline for Restless {
 fn rays_that_are_given_up_are_counted() {
     // A triangle that no ray here meets, far from the middle of the ball that its body may fill.
     let corners = [[0.0, 1.0, 0.0], [0.0, 0.9, 0.1], [0.1, 0.9, 0.0]];
-    let vertices = corners.map(|position| Vertex { position, normal: [0.0, 1.0, 0.0], uv: [0.0; 2] });
-    let model = Model {
-        vertices: vertices.to_vec(),
-        triangles: vec![[0, 1, 2]],
-        triangle_materials: vec![0],
-        materials: vec![Material::default()],
-    };
-    let models = [model];
+    let models = [model(&corners.map(DVec3::from_array), &[[0, 1, 2]])];
     let look = |bodies: usize| {
-        let thing = Thing { model: 0, scale: 1.0, motion: Motion::Flying(&Restless), light: Illumination::default(), id: 1 };
-        let world = World::new(&models, vec![thing; bodies], 0.0, true);
+        let world = World::new(&models, vec![thing(0, Motion::Flying(&Restless)); bodies], 0.0, true);
         let seen = world.look(DVec3::X * 20.0, DVec3::new(-1.0, 0.001, 0.0), 1e-12);
         assert!(!matches!(seen, Seen::Hit(_)));
         let alone = world.given_up();

@@ -5,30 +5,13 @@ use std::f64::consts::PI;
 use glam::{DQuat, DVec3};
 use lensrunner::judge::picture::{Motion, Pose, Seen, Thing, World, Worldline};
 use lensrunner::judge::trace::PixelCamera;
-use lensrunner::scene::lighting::Illumination;
-use lensrunner::scene::{Material, Model, Vertex};
 use lensrunner::spacetime::Observer;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
 use crate::judge::brute::{self, Mesh};
+use crate::judge::{model, thing};
 
 const TOLERANCE: f64 = 1e-13;
-
-/// A model from corners.
-fn model(corners: &[DVec3], triangles: &[[u32; 3]]) -> Model {
-    let vertex =
-        |v: &DVec3| Vertex { position: v.as_vec3().to_array(), normal: v.as_vec3().normalize_or(glam::Vec3::Y).to_array(), uv: [0.0; 2] };
-    Model {
-        vertices: corners.iter().map(vertex).collect(),
-        triangles: triangles.to_vec(),
-        triangle_materials: vec![0; triangles.len()],
-        materials: vec![Material::default()],
-    }
-}
-
-fn thing<'a>(model: usize, motion: Motion<'a>) -> Thing<'a> {
-    Thing { model, scale: 1.0, motion, light: Illumination::default(), id: model as u32 + 1 }
-}
 
 fn held() -> Motion<'static> {
     Motion::Held { position: DVec3::ZERO, attitude: DQuat::IDENTITY }

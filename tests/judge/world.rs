@@ -4,32 +4,18 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DQuat, DVec3};
-use lensrunner::judge::picture::{Motion, Pose, Seen, Sway, Thing, World, Worldline};
+use lensrunner::judge::picture::{Motion, Pose, Seen, Sway, World, Worldline};
 use lensrunner::judge::{Branch, shoot};
-use lensrunner::scene::lighting::Illumination;
-use lensrunner::scene::model::{Material, Model, Vertex};
+use lensrunner::scene::Model;
+
+use crate::judge::{model, thing};
 
 const TOLERANCE: f64 = 1e-12;
-
-fn model(corners: &[DVec3], triangles: &[[u32; 3]]) -> Model {
-    let vertex =
-        |v: &DVec3| Vertex { position: v.as_vec3().to_array(), normal: v.as_vec3().normalize_or(glam::Vec3::Y).to_array(), uv: [0.0; 2] };
-    Model {
-        vertices: corners.iter().map(vertex).collect(),
-        triangles: triangles.to_vec(),
-        triangle_materials: vec![0; triangles.len()],
-        materials: vec![Material::default()],
-    }
-}
 
 /// A square of this half side in the plane through the origin with normal x.
 fn square(half: f64) -> Model {
     let corner = |y: f64, z: f64| DVec3::new(0.0, half * y, half * z);
     model(&[corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)], &[[0, 1, 2], [0, 2, 3]])
-}
-
-fn thing<'a>(model: usize, motion: Motion<'a>) -> Thing<'a> {
-    Thing { model, scale: 1.0, motion, light: Illumination::default(), id: model as u32 + 1 }
 }
 
 /// Along the x axis at this rate of x, whatever the hole does to others.

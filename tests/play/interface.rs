@@ -1,6 +1,5 @@
 //! The whole game on a picture instead of a window, driven by its devices: from the first start to the end.
 
-use std::path::PathBuf;
 use std::time::Duration;
 
 use bevy::input::ButtonState;
@@ -22,23 +21,7 @@ use lensrunner::scene::Difficulty;
 use lensrunner::sim::replay::Playback;
 use lensrunner::sim::{Chase, Clock};
 
-/// A folder that is gone in the end.
-pub(super) struct Folder(pub(super) PathBuf);
-
-impl Folder {
-    pub(super) fn new(name: &str) -> Folder {
-        let folder = std::env::temp_dir().join(format!("lensrunner-interface-{name}-{}", std::process::id()));
-        _ = std::fs::remove_dir_all(&folder);
-        std::fs::create_dir_all(&folder).unwrap();
-        Folder(folder)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        _ = std::fs::remove_dir_all(&self.0);
-    }
-}
+use crate::support::Folder;
 
 /// The game at its first start.
 fn game(folder: &Folder) -> App {
@@ -50,8 +33,8 @@ pub(super) fn game_of(folder: &Folder, mut session: Session, size: [u32; 2]) -> 
     session.difficulty = Difficulty::Easy;
     // English, whatever the machine speaks.
     session.config.interface.language = "en".into();
-    let options = Options { data: Some(folder.0.clone()), ..Options::default() };
-    let (choices, said) = Choices::load_from(&folder.0.join("settings.toml"));
+    let options = Options { data: Some(folder.path().into()), ..Options::default() };
+    let (choices, said) = Choices::load_from(&folder.path().join("settings.toml"));
     assert_eq!(said, None);
     let mut app = app(session, &options, Surface::Picture(size), choices);
     app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(100)));
@@ -129,7 +112,7 @@ fn page(app: &App) -> Option<Page> {
 /// photo mode, settings that are kept, the other language, out.
 #[test]
 fn the_whole_way_by_the_keyboard() {
-    let folder = Folder::new("keyboard");
+    let folder = Folder::new();
     let mut app = game(&folder);
     assert_eq!(screen(&app), Screen::Warning);
     let before = app.world().resource::<Clock>().time;
@@ -214,7 +197,7 @@ fn the_whole_way_by_the_keyboard() {
     choose(&mut app, "quit");
     assert!(app.should_exit().is_some());
     // All of it is there at the next start, and the warning is not.
-    let (choices, said) = Choices::load_from(&folder.0.join("settings.toml"));
+    let (choices, said) = Choices::load_from(&folder.path().join("settings.toml"));
     let mut session = Session::load(None, None, None).unwrap();
     choices.over(&mut session.config);
     let config = &session.config;
@@ -227,7 +210,7 @@ fn the_whole_way_by_the_keyboard() {
 #[cfg(feature = "pad")]
 #[test]
 fn the_menus_by_the_gamepad() {
-    let folder = Folder::new("pad");
+    let folder = Folder::new();
     let mut app = game(&folder);
     let pad = app.world_mut().spawn_empty().id();
     let connection = GamepadConnection::Connected { name: "test".into(), vendor_id: None, product_id: None };

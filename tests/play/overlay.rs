@@ -27,17 +27,18 @@ use lensrunner::sim::replay::Playback;
 use lensrunner::sim::run::state_hash;
 use lensrunner::sim::snapshot::Snapshot;
 
-use super::interface::{Folder, choose, fly_on, game_of, push, screen};
+use super::interface::{choose, fly_on, game_of, push, screen};
+use crate::support::Folder;
 
 /// The game in its first mission, with a `game.toml` of its own and the overlay open.
 fn opened(folder: &Folder, size: [u32; 2]) -> (App, PathBuf) {
-    let file = folder.0.join("game.toml");
+    let file = folder.path().join("game.toml");
     // Without what costs most of the picture.
     let cheap = ["render.orders=1", "video.quality=low"].map(|one| one.parse().unwrap());
     std::fs::write(&file, edited(&file, &std::fs::read_to_string("game.toml").unwrap(), &cheap).unwrap()).unwrap();
     let session = Session::load(Some(&file), None, Some(3)).unwrap();
     let mut app = game_of(folder, session, size);
-    app.world_mut().resource_mut::<Overlay>().folder = Some(folder.0.join("moments"));
+    app.world_mut().resource_mut::<Overlay>().folder = Some(folder.path().join("moments"));
     app.world_mut().query::<&mut EguiContext>().single_mut(app.world_mut()).unwrap().get_mut().enable_accesskit();
     choose(&mut app, "warned");
     choose(&mut app, "mission-2");
@@ -132,7 +133,7 @@ fn said(app: &App) -> &str {
 /// Opened, searched, changed, undone, reset, saved: to the file, with its comments, and where the player had chosen otherwise.
 #[test]
 fn what_is_changed_is_undone_reset_and_saved() {
-    let folder = Folder::new("overlay-settings");
+    let folder = Folder::new();
     let (mut app, file) = opened(&folder, [1280, 720]);
     // Both windows are off the dials.
     let dials = app.world().resource::<Dials>().0.clone();
@@ -222,7 +223,7 @@ fn what_is_changed_is_undone_reset_and_saved() {
 /// Time stands still and goes on by steps; a moment is saved, and drawn again by what reads it.
 #[test]
 fn a_moment_is_saved_and_drawn_again() {
-    let folder = Folder::new("overlay-moment");
+    let folder = Folder::new();
     let (mut app, _) = opened(&folder, [960, 640]);
     click(&mut app, "Light");
     assert!(config(&app).render.doppler);
@@ -242,14 +243,14 @@ fn a_moment_is_saved_and_drawn_again() {
 
     click(&mut app, "Save this moment");
     let file = app.world().resource::<Overlay>().moment.clone().unwrap_or_else(|| panic!("{}", said(&app)));
-    assert!(is_moment(&file) && file.starts_with(&folder.0));
+    assert!(is_moment(&file) && file.starts_with(folder.path()));
     let snapshot = Snapshot::from_text(&file, &read_moment(&file).unwrap()).unwrap();
     assert!(!snapshot.config().render.doppler && snapshot.flight.ticks == before.tick + 8);
     let moment = snapshot.fly(&file).unwrap();
     let picture = shot_again(&snapshot, &moment, [96, 64], false, true).unwrap();
     assert!(picture.display.iter().filter(|byte| **byte > 40).count() > 200, "something is seen");
     // The same by the command, from the place of a scene.
-    let png = folder.0.join("again.png");
+    let png = folder.path().join("again.png");
     let run = |more: &[&str]| {
         let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_lensrunner"));
         command.args(["shot", "--scene"]).arg(&file).arg("-o").arg(&png).args(["--size", "96x64"]).args(more);
@@ -272,7 +273,7 @@ fn a_moment_is_saved_and_drawn_again() {
 /// Any moment of a replay, forwards and back, is the one that was flown.
 #[test]
 fn a_replay_is_gone_through_to_and_fro() {
-    let folder = Folder::new("overlay-replay");
+    let folder = Folder::new();
     let (mut app, _) = opened(&folder, [320, 200]);
     fly_on(&mut app);
     assert_eq!(screen(&app), Screen::Result);

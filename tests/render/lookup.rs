@@ -12,7 +12,6 @@ use lensrunner::render::gpu::readback;
 use lensrunner::render::gpu::types::SeenVertex;
 use lensrunner::render::instances::{DrawnObject, Illumination as Light, Motion, Placed, View, instances_of};
 use lensrunner::render::method::Method;
-use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::model::shapes;
@@ -24,7 +23,7 @@ use lensrunner::spacetime::light::{self, Branch, Order};
 use lensrunner::spacetime::matter::{ShipState, gamma, step};
 
 use crate::gpu::GPU;
-use crate::support::shared_table;
+use crate::render::support::renderer;
 
 /// One for all: most of a renderer's time here is the compiling of its passes.
 static BENCH: LazyLock<Mutex<Bench>> = LazyLock::new(|| Mutex::new(Bench::new([64, 36])));
@@ -43,8 +42,7 @@ pub struct Bench {
 
 impl Bench {
     pub fn new(size: [u32; 2]) -> Bench {
-        let surroundings = Surroundings { table: shared_table(), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
-        let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);
+        let mut renderer = renderer(size);
         let ball = shapes::icosphere(80, Material::default());
         let model = renderer.add_model(&ball);
         Bench { renderer, ball, model }

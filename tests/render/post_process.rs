@@ -10,21 +10,15 @@ use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::Moment;
 use lensrunner::spacetime::Observer;
 
-use crate::gpu::GPU;
-use crate::render::support::surroundings;
+use crate::render::support::{linear, renderer};
 
 /// A scene at T = 0, with its layers.
 fn picture(name: &str, size: [u32; 2], settings: &Settings) -> Picture {
     let scene = scene::load(name).unwrap();
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let mut renderer = renderer(size);
     let mut stage = Stage::new(&mut renderer, &scene, &GameConfig::default());
     let frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, settings);
     renderer.picture(&frame, true).unwrap()
-}
-
-fn linear(encoded: u8) -> f64 {
-    let value = f64::from(encoded) / 255.0;
-    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
 /// Of the same linear light, at a size that is no multiple of the levels' steps. What remains are steps of 8 bits and halves of 11 bits.
@@ -105,7 +99,7 @@ fn a_chase_of(size: [u32; 2]) -> ([u32; 2], GameConfig, Renderer, Stage, Moment)
     // Its strokes are added in any order, which rounding tells.
     config.aurora.enabled = false;
     let scene = scene::load("chase").unwrap();
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let mut renderer = renderer(size);
     let stage = Stage::new(&mut renderer, &scene, &config);
     let moment = Moment::new(&scene, &config, 0.0, 0);
     (size, config, renderer, stage, moment)

@@ -8,7 +8,7 @@ use lensrunner::render::stage::{Stage, settings};
 use lensrunner::scene::{GameConfig, load};
 
 use crate::gpu::GPU;
-use crate::render::support::surroundings;
+use crate::render::support::renderer;
 
 const SIZE: [u32; 2] = [160, 90];
 /// Frames until all has been seen once.
@@ -38,7 +38,7 @@ fn makes(renderer: &mut Renderer, scene: &str) -> Vec<u64> {
 
 #[test]
 fn a_frame_without_anything_new_makes_nothing() {
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, SIZE);
+    let mut renderer = renderer(SIZE);
     for scene in ["chase", "disk", "parade", "aurora-orbit"] {
         let makes = makes(&mut renderer, scene);
         println!("{scene}: {makes:?}");

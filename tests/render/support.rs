@@ -57,6 +57,20 @@ pub fn aurora_alone(stage: &mut Stage, camera: Observer, size: [u32; 2], time: f
     frame
 }
 
+/// Light of an sRGB byte, from 0 to 1.
+pub fn linear(encoded: u8) -> f64 {
+    let value = f64::from(encoded) / 255.0;
+    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+}
+
+/// The root mean square of the difference from `want`, over that of `want`.
+pub fn apart(got: &Picture, want: &Picture) -> f64 {
+    let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
+    let off: f64 = got.linear.iter().zip(&want.linear).map(|(p, q)| square(p, q)).sum();
+    let all: f64 = want.linear.iter().map(|p| square(p, &[0.0; 4])).sum();
+    (off / all).sqrt()
+}
+
 /// The light in a picture.
 pub fn total(picture: &Picture) -> f64 {
     picture.linear.iter().map(|p| f64::from(p[0] + p[1] + p[2])).sum()

@@ -5,7 +5,7 @@ use lensrunner::render::Gpu;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::PictureError;
 use lensrunner::render::instances::{Motion, Placed};
-use lensrunner::render::renderer::{Renderer, Surroundings};
+use lensrunner::render::renderer::Renderer;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::Material;
@@ -14,6 +14,7 @@ use lensrunner::spacetime::Observer;
 use lensrunner::spacetime::light;
 
 use crate::render::lookup::{Bench, bench};
+use crate::render::support::{settings, surroundings};
 
 fn camera() -> Observer {
     static_camera(DVec3::new(0.0, 0.0, 15.0), DVec3::NEG_Z, DVec3::Y, 60f64.to_radians())
@@ -27,26 +28,21 @@ fn frame(placed: Vec<Placed>, settings: Settings) -> FrameInput {
     FrameInput { camera: camera(), time: 0.0, placed, aurora: None, settings }
 }
 
-fn quiet() -> Settings {
-    Settings { stars: false, milky_way: false, bloom: 0.0, ..Settings::finest() }
-}
-
 /// A device that is lost: an error in words, then and afterwards, and no panic.
 #[test]
 fn a_lost_device_is_an_error_in_words() {
     let gpu = Gpu::headless().expect("a driver");
-    let surroundings = Surroundings { table: bench().renderer.table().clone(), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
-    let mut renderer = Renderer::new(&gpu, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, [16, 16]);
+    let mut renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, [16, 16]);
     gpu.device.destroy();
     let _ = gpu.device.poll(wgpu::PollType::Poll);
     for _ in 0..2 {
-        match renderer.picture(&frame(Vec::new(), quiet()), false) {
+        match renderer.picture(&frame(Vec::new(), settings()), false) {
             Err(PictureError::Device(what)) => assert!(what.contains("lost") || what.contains("destroyed"), "{what}"),
             other => panic!("{:?}", other.map(|picture| picture.size)),
         }
     }
     assert!(renderer.counters().is_err());
-    assert!(!renderer.prepare(&frame(Vec::new(), quiet())));
+    assert!(!renderer.prepare(&frame(Vec::new(), settings())));
 }
 
 /// A window without a size: nothing is drawn until it has one again.
@@ -56,18 +52,18 @@ fn a_picture_without_a_size_waits() {
     let size = bench.renderer.size();
     for none in [[0, 0], [0, 9], [9, 0]] {
         bench.renderer.resize(none);
-        assert!(!bench.renderer.prepare(&frame(Vec::new(), quiet())));
-        assert!(matches!(bench.renderer.picture(&frame(Vec::new(), quiet()), false), Err(PictureError::Nothing)));
+        assert!(!bench.renderer.prepare(&frame(Vec::new(), settings())));
+        assert!(matches!(bench.renderer.picture(&frame(Vec::new(), settings()), false), Err(PictureError::Nothing)));
     }
     bench.renderer.resize(size);
-    assert!(bench.renderer.picture(&frame(Vec::new(), quiet()), false).is_ok());
+    assert!(bench.renderer.picture(&frame(Vec::new(), settings()), false).is_ok());
 }
 
 /// Numbers that are not finite are caught at the door, counted, and not drawn; what is beside them is.
 #[test]
 fn what_is_not_finite_is_counted_and_not_drawn() {
     let mut bench = bench();
-    let settings = Settings { orders: 1, ..quiet() };
+    let settings = Settings { orders: 1, ..settings() };
     let good = ball(&bench, DVec3::new(3.0, 0.0, 4.0), 1.0, &settings);
     let picture = bench.renderer.picture(&frame(good.clone(), settings), true).unwrap();
     assert!(picture.layers.iter().any(|texel| texel[0] == 1.0));
@@ -101,7 +97,7 @@ fn what_is_not_finite_is_counted_and_not_drawn() {
 #[test]
 fn from_within_a_body_its_inner_side_is_seen() {
     let mut bench = bench();
-    let settings = Settings { orders: 1, ..quiet() };
+    let settings = Settings { orders: 1, ..settings() };
     for aside in [0.0, 0.3] {
         let placed = ball(&bench, camera().position + DVec3::new(aside, 0.1, 0.05), 1.0, &settings);
         let picture = bench.renderer.picture(&frame(placed, settings), true).unwrap();
@@ -122,7 +118,7 @@ fn a_full_vertex_buffer_is_said_and_nothing_vanishes() {
     let mut lit = Vec::new();
     // The most that is allowed as well, which some devices' buffers cannot hold.
     for vertex_budget in [600_000, 1_000, 2_000_000] {
-        let settings = Settings { orders: 2, vertex_budget, ..quiet() };
+        let settings = Settings { orders: 2, vertex_budget, ..settings() };
         let motion = Motion::Held { position: DVec3::new(0.0, 0.0, -12.0), attitude: DQuat::IDENTITY };
         let mut object = bench.object(motion, 8.0, 1);
         (object.model, object.coarse) = (square, square);
@@ -155,13 +151,13 @@ fn the_settings_of_geometry_do_what_they_say() {
         bench.renderer.picture(&frame(placed, settings), false).unwrap();
         bench.renderer.counters().unwrap()
     };
-    let fine = counters(&mut bench, quiet(), 2.0, false);
-    let coarse = counters(&mut bench, Settings { halvings: 1, ..quiet() }, 2.0, false);
+    let fine = counters(&mut bench, settings(), 2.0, false);
+    let coarse = counters(&mut bench, Settings { halvings: 1, ..settings() }, 2.0, false);
     let made = |c: lensrunner::render::gpu::types::Counters| c.vertices - c.model_vertices;
     assert!(made(fine) > 2 * made(coarse) && made(coarse) > 0, "{} and {} vertices", made(fine), made(coarse));
-    let thin = counters(&mut bench, quiet(), 0.02, true);
+    let thin = counters(&mut bench, settings(), 0.02, true);
     assert!(thin.thin > 0);
-    let none = counters(&mut bench, Settings { min_width: 0.0, ..quiet() }, 0.02, true);
+    let none = counters(&mut bench, Settings { min_width: 0.0, ..settings() }, 0.02, true);
     assert_eq!(none.thin, 0);
 
     // Thresholds of the instances, by a pixel of 0.01 rad.
@@ -179,12 +175,12 @@ fn the_settings_of_geometry_do_what_they_say() {
     let count = |settings: Settings| images(settings).len();
     // The ball is 2.3 pixels wide in the first order.
     let first = |settings: Settings| images(settings)[0].clone();
-    assert_eq!(count(Settings { least_width: 0.0, ..quiet() }), 3);
-    assert_eq!(count(Settings { least_width: 10.0, ..quiet() }), 1);
-    assert_eq!(first(Settings { coarse_below: 6.0, ..quiet() }).model.triangles, stand_in.triangles);
-    assert_ne!(first(Settings { coarse_below: 1.0, ..quiet() }).model.triangles, stand_in.triangles);
-    assert_eq!(first(Settings { thin_below: 3.0, ..quiet() }).instance.flags & THIN, THIN);
-    assert_eq!(first(Settings { thin_below: 0.5, ..quiet() }).instance.flags & THIN, 0);
+    assert_eq!(count(Settings { least_width: 0.0, ..settings() }), 3);
+    assert_eq!(count(Settings { least_width: 10.0, ..settings() }), 1);
+    assert_eq!(first(Settings { coarse_below: 6.0, ..settings() }).model.triangles, stand_in.triangles);
+    assert_ne!(first(Settings { coarse_below: 1.0, ..settings() }).model.triangles, stand_in.triangles);
+    assert_eq!(first(Settings { thin_below: 3.0, ..settings() }).instance.flags & THIN, THIN);
+    assert_eq!(first(Settings { thin_below: 0.5, ..settings() }).instance.flags & THIN, 0);
 }
 
 /// The rings of orders 2 and 3 of a ball, a twentieth of a pixel wide: the second is an unbroken line, the third nearly.
@@ -195,7 +191,7 @@ fn rings_of_orders_two_and_three_are_unbroken() {
     let size = [320, 180];
     bench.renderer.resize(size);
     for (order, position, radius) in [(2, DVec3::new(0.0, 0.0, 9.0), 1.0), (3, DVec3::new(0.0, 0.0, -12.0), 4.0)] {
-        let settings = Settings { orders: 3, least_width: 0.0, ..quiet() };
+        let settings = Settings { orders: 3, least_width: 0.0, ..settings() };
         let eye = camera();
         let object = bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, radius, 1);
         let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), 15.0);

@@ -1,12 +1,10 @@
 //! A picture drawn smaller than the output is enlarged to it by cubic convolution.
 
-use lensrunner::render::renderer::Renderer;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::Stage;
 use lensrunner::scene::{self, GameConfig};
 
-use crate::gpu::GPU;
-use crate::render::support::surroundings;
+use crate::render::support::{linear, renderer};
 
 /// Keys' kernel (1981, equation 4), as in upscale.wgsl of this sharpness.
 fn kernel(x: f64) -> f64 {
@@ -31,11 +29,6 @@ fn enlarged(values: &[f64], wide: usize) -> Vec<f64> {
         .collect()
 }
 
-fn linear(encoded: u8) -> f64 {
-    let value = f64::from(encoded) / 255.0;
-    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
-}
-
 fn encoded(light: f64) -> f64 {
     255.0 * if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
 }
@@ -44,7 +37,7 @@ fn encoded(light: f64) -> f64 {
 fn a_small_picture_is_enlarged_as_in_rust() {
     let (small, output) = ([96, 54], [160, 90]);
     let scene = scene::load("ring").unwrap();
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, output);
+    let mut renderer = renderer(output);
     let mut stage = Stage::new(&mut renderer, &scene, &GameConfig::default());
     let camera = stage.camera(0.0, &[]);
     let mut draw = |size, resolution| {

@@ -7,7 +7,7 @@ use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::{Stage, static_camera};
 use lensrunner::scene::disk::Gas;
-use lensrunner::scene::{self, GameConfig};
+use lensrunner::scene::{GameConfig, Scene};
 use lensrunner::spacetime::Observer;
 use lensrunner_lab::disk::exact::{self, Crossing};
 
@@ -41,10 +41,7 @@ fn balls(
             p.x, p.y, p.z
         );
     }
-    let file = std::env::temp_dir().join(format!("lensrunner-order-{}-{:?}.toml", std::process::id(), std::thread::current().id()));
-    std::fs::write(&file, text).unwrap();
-    let scene = scene::load(file.to_str().unwrap()).unwrap();
-    std::fs::remove_file(&file).unwrap();
+    let scene = Scene::from_toml("order.toml".as_ref(), &text).unwrap();
     let mut stage = Stage::new(renderer, &scene, config);
     let frame = stage.frame(camera, SIZE, 0.0, &[], None, settings);
     renderer.picture(&frame, true).unwrap()

@@ -4,25 +4,21 @@ use lensrunner::render::Renderer;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::stage::{Stage, settings};
-use lensrunner::scene::{self, GameConfig, Model, Scene};
+use lensrunner::scene::{GameConfig, Model, Scene};
 
 use crate::render::support::renderer;
-use crate::support::Folder;
 
 const SIZE: [u32; 2] = [240, 240];
 
 /// A planet with an aurora of this shape, seen from straight above a magnetic latitude, so many km high. It is so far from the hole that
 /// space is flat about it, and slow.
 fn scene_above(shape: &str, latitude: f64, height: f64) -> Scene {
-    let folder = Folder::new();
-    let path = folder.path().join("scene.toml");
     let text = format!(
         "[planet]\norbit_radius = 1000.0\nradius = 0.8\nday = 1e6\nphase = 2.4\naxis_tilt = 0.3\ndipole_tilt = 0.35\naurora = \"{shape}\"\nseed = 3\n\
          [camera]\nabove = [{latitude}, 0.4, {height}]\nlook = [0.0, 0.0, -1.0]\nup = [0.0, 1.0, 0.0]\nfov = 50.0\n\
          [sky]\nstars = false\nmilky_way = false\n"
     );
-    std::fs::write(&path, text).unwrap();
-    scene::load(path.to_str().unwrap()).unwrap()
+    Scene::from_toml("above.toml".as_ref(), &text).unwrap()
 }
 
 /// The planet all white.

@@ -6,7 +6,7 @@ use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::stage::Stage;
 use lensrunner::scene::{self, GameConfig};
 
-use crate::render::support::{aurora_alone, renderer};
+use crate::render::support::{apart, aurora_alone, renderer};
 
 /// Times of a frame whose aurora costs `fixed` and, with all of its streaks, `streaks` more; everything else `rest`, ms. `number` tells
 /// frames apart: times waver by a thousandth.
@@ -117,11 +117,9 @@ fn fewer_streaks_are_wider_and_as_bright() {
             let left = f64::from(count(&alone(&mut stage, size, &config))) / f64::from(count(&all));
             assert!((0.7 * part..=part).contains(&left), "{name}: {left} of the streaks are left, not {part}");
             let fewer = renderer.picture(&alone(&mut stage, size, &config), false).unwrap();
-            let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
-            let off: f64 = fewer.linear.iter().zip(&whole.linear).map(|(p, q)| square(p, q)).sum();
-            let sum: f64 = whole.linear.iter().map(|p| square(p, &[0.0; 4])).sum();
-            println!("{name}, {part}: off by {}, {:?} of {:?}", (off / sum).sqrt(), light(&fewer), light(&whole));
-            assert!((off / sum).sqrt() < limit);
+            let off = apart(&fewer, &whole);
+            println!("{name}, {part}: off by {off}, {:?} of {:?}", light(&fewer), light(&whole));
+            assert!(off < limit);
             // What is wider goes further over the picture's edge.
             for (fewer, whole) in light(&fewer).into_iter().zip(light(&whole)) {
                 // Green that is bluer than sRGB's has no blue in it.

@@ -6,7 +6,7 @@ use lensrunner::render::aurora::{AuroraSettings, PYRAMID, RAYS_PERIOD, planet_hi
 use lensrunner::render::gpu::layout;
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::stage::static_camera;
-use lensrunner::scene;
+use lensrunner::scene::Scene;
 use lensrunner::scene::aurora::air;
 use lensrunner::scene::aurora::dipole::on_field_line;
 use lensrunner::scene::aurora::fall::{self, Spectrum};
@@ -219,10 +219,7 @@ fn rays_go_round_an_oval_without_a_seam() {
 #[test]
 fn a_planet_far_away_has_a_history() {
     let text = "[camera]\nposition = [-2000.0, 0.0, 0.0]\n[planet]\norbit_radius = 600.0\nradius = 0.8\n";
-    let path = std::env::temp_dir().join(format!("lensrunner-far-{}.toml", std::process::id()));
-    std::fs::write(&path, text).unwrap();
-    let planet = scene::load(path.to_str().unwrap()).unwrap().planet.unwrap();
-    std::fs::remove_file(&path).unwrap();
+    let planet = Scene::from_toml("far.toml".as_ref(), text).unwrap().planet.unwrap();
     for back in [10.0, 900.0, 6000.0, 1e5] {
         let history = planet_history(&planet, 0.0, back, planet.dipole()).expect("it is somewhere");
         for time in [-back, 0.0] {

@@ -11,14 +11,9 @@ use lensrunner::scene::aurora::random::hash;
 use lensrunner::scene::{self, GameConfig, Scene};
 use lensrunner::spacetime::Observer;
 
-use crate::gpu::GPU;
-use crate::render::support::surroundings;
+use crate::render::support::renderer;
 
 const SIZE: [u32; 2] = [160, 90];
-
-fn renderer() -> Renderer {
-    Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, SIZE)
-}
 
 /// Where the planet was when the light left that comes to `eye` at T = 0, but for the hole's part.
 fn seen_place(scene: &Scene, eye: DVec3) -> DVec3 {
@@ -32,7 +27,7 @@ fn an_aurora_behind_the_camera_is_not_simulated() {
     let scene = scene::load("aurora-orbit").unwrap();
     let mut config = GameConfig::default();
     config.aurora.streaks = 1000;
-    let mut renderer = renderer();
+    let mut renderer = renderer(SIZE);
     let mut stage = Stage::new(&mut renderer, &scene, &config);
     let orbit = stage.camera(0.0, &[]);
     let mut is_seen = |camera: Observer| stage.frame(camera, SIZE, 0.0, &[], None, &settings(&config)).aurora.is_some();
@@ -95,7 +90,7 @@ fn only(frame: &AuroraFrame, image: usize) -> AuroraFrame {
 fn what_leaves_strokes_is_never_left_out() {
     let mut config = GameConfig::default();
     config.aurora.streaks = 1500;
-    let mut renderer = renderer();
+    let mut renderer = renderer(SIZE);
     let table = renderer.table().clone();
     let mut draws = Draws(0);
     // Images left out, those drawn with strokes, and those drawn without.

@@ -7,6 +7,7 @@ use lensrunner::render::{Gpu, Renderer};
 use lensrunner::scene::{self, GameConfig};
 
 use crate::gpu::GPU;
+use crate::render::support::{apart, surroundings, total};
 
 fn drawn(gpu: &Gpu, surroundings: &Surroundings, name: &str, size: [u32; 2]) -> Picture {
     let mut config = GameConfig::default();
@@ -25,21 +26,12 @@ fn drawn(gpu: &Gpu, surroundings: &Surroundings, name: &str, size: [u32; 2]) -> 
 fn without_optional_features_the_picture_is_the_same() {
     let plain = Gpu::headless_with(wgpu::Features::empty()).unwrap();
     let size = [256, 144];
-    let surroundings = crate::render::support::surroundings();
+    let surroundings = surroundings();
     for (name, allowed, light_allowed) in [("aurora-orbit", 0.02, 0.015), ("aurora-below", 0.02, 0.015), ("disk-80", 1e-3, 1e-3)] {
         let [got, want] = [&plain, &GPU].map(|gpu| drawn(gpu, &surroundings, name, size));
         assert!(plain.watch.complaint().is_none(), "{name}: {:?}", plain.watch.complaint());
-        let light = |picture: &Picture| picture.linear.iter().map(|p| f64::from(p[0] + p[1] + p[2])).sum::<f64>();
-        let square = |a: &Picture, b: Option<&Picture>| {
-            let other = |k: usize, c: usize| b.map_or(0.0, |b| b.linear[k][c]);
-            (0..a.linear.len())
-                .flat_map(|k| (0..3).map(move |c| (k, c)))
-                .map(|(k, c)| f64::from(a.linear[k][c] - other(k, c)).powi(2))
-                .sum::<f64>()
-        };
-        let off = (square(&got, Some(&want)) / square(&want, None)).sqrt();
-        let ratio = light(&got) / light(&want);
+        let (off, ratio) = (apart(&got, &want), total(&got) / total(&want));
         println!("{name}: off by {off:.4} (root mean square), {ratio:.4} of the light");
-        assert!(light(&want) > 0.0 && off < allowed && (ratio - 1.0).abs() < light_allowed);
+        assert!(total(&want) > 0.0 && off < allowed && (ratio - 1.0).abs() < light_allowed);
     }
 }

@@ -10,7 +10,6 @@ use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::types::Counters;
 use lensrunner::render::instances::{DrawnObject, Illumination, Motion, View, instances_of};
 use lensrunner::render::models::ModelRange;
-use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::{Stage, settings, third_person};
 use lensrunner::scene::crew::Crew;
@@ -23,8 +22,7 @@ use lensrunner::spacetime::matter::{ShipState, momentum_of, step};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-use crate::gpu::GPU;
-use crate::support::shared_table;
+use crate::render::support::renderer;
 
 const SIZE: [u32; 2] = [160, 90];
 const LENGTH: f64 = 0.25;
@@ -38,8 +36,7 @@ struct Yard {
 }
 
 static YARD: LazyLock<Mutex<Yard>> = LazyLock::new(|| {
-    let surroundings = Surroundings { table: shared_table(), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
-    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, SIZE);
+    let mut renderer = renderer(SIZE);
     let model = load_or_placeholder("hunter.glb").0;
     let ship = renderer.add_model(&model);
     Mutex::new(Yard { renderer, ship, reach: f64::from(model.radius()) * LENGTH })
@@ -171,8 +168,7 @@ fn a_surface_goes_through_the_camera() {
     moment.advance((12.25 / config.clock.step) as u64 + 1);
     let nobody = History::nobody();
     let histories: Vec<&History> = moment.histories().into_iter().chain([&nobody]).chain(moment.bolts()).collect();
-    let surroundings = Surroundings { table: shared_table(), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
-    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, SIZE);
+    let mut renderer = renderer(SIZE);
     let mut stage = Stage::new(&mut renderer, &scene, &config);
     // Fired by hands at T = 12.24: the camera is still within it.
     let time = 12.25;

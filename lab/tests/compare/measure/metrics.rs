@@ -50,6 +50,11 @@ fn faults(case: &Case, judge: &Picture, frame: &Frame) -> Vec<String> {
     verdict(case, judge, frame).faults(&Limits::default())
 }
 
+/// One of the faults is said in these words.
+fn tells(faults: &[String], words: &[&str]) {
+    assert!(faults.iter().any(|fault| words.iter().all(|word| fault.contains(word))), "{words:?} not in {faults:?}");
+}
+
 /// The picture moved to the right by whole pixels.
 fn moved(frame: &Frame, by: usize) -> Frame {
     let width = frame.size[0] as usize;
@@ -147,8 +152,7 @@ fn dropped_triangles_are_holes() {
         }
     }
     assert!(dropped > 20, "{dropped}");
-    let found = faults(&case, &judge, &broken);
-    assert!(found.iter().any(|fault| fault.contains("holes")), "{found:?}");
+    tells(&faults(&case, &judge, &broken), &["holes"]);
     // Where one of four rays goes through a slit between things, it is no hole to see through it.
     let mut slit = judge.clone();
     slit.shares.iter_mut().flatten().for_each(|share| share.2 = 0.75);
@@ -163,14 +167,12 @@ fn a_missing_or_wrong_order_is_found() {
     for shown in none.shown.iter_mut().filter(|shown| shown.order == 2) {
         *shown = Default::default();
     }
-    let found = faults(&case, &judge, &none);
-    assert!(found.iter().any(|fault| fault.contains("order 2") && fault.contains("pixels differ")), "{found:?}");
+    tells(&faults(&case, &judge, &none), &["order 2", "pixels differ"]);
     let mut wrong = Frame::of(&judge, &case);
     for shown in wrong.shown.iter_mut().filter(|shown| shown.order == 2) {
         shown.order = 1;
     }
-    let found = faults(&case, &judge, &wrong);
-    assert!(found.iter().any(|fault| fault.contains("show an order that is nowhere near")), "{found:?}");
+    tells(&faults(&case, &judge, &wrong), &["show an order that is nowhere near"]);
 }
 
 #[test]
@@ -200,8 +202,7 @@ fn coarse_triangles_are_found() {
         changed += 1;
     }
     assert!(changed > 300, "{changed}");
-    let found = faults(&case, &judge, &flat);
-    assert!(found.iter().any(|fault| fault.contains("order 1") && fault.contains("displacement")), "{found:?}");
+    tells(&faults(&case, &judge, &flat), &["order 1", "displacement"]);
 }
 
 /// Where, in pixels, the camera sees a point outside the hole in order 1, by shooting.
@@ -242,8 +243,7 @@ milky_way = false
     let now = Worldline::at(&case.histories[0], 0.0);
     let still = Still(now);
     let broken = case.trace_with(&[&still], &Quality { samples: 1, tolerance: 1e-10, packet: 8 }, false, &|_| ());
-    let found = faults(&case, &judge, &Frame::of(&broken, &case));
-    assert!(found.iter().any(|fault| fault.contains("quarry order 1")), "{found:?}");
+    tells(&faults(&case, &judge, &Frame::of(&broken, &case)), &["quarry order 1"]);
 }
 
 #[test]
@@ -322,8 +322,7 @@ triangles = 20
     assert!(group.thin[0] > 40.0 && group.pixels == 0, "{group:?}");
     assert_eq!(exact.faults(&Limits::default()), Vec::<String>::new());
     for factor in [0.0, 2.0] {
-        let found = faults(&case, &judge, &drawn(factor));
-        assert!(found.iter().any(|fault| fault.contains("thin images cover")), "{factor}: {found:?}");
+        tells(&faults(&case, &judge, &drawn(factor)), &["thin images cover"]);
     }
 }
 
@@ -344,7 +343,6 @@ fn colours_of_the_disk_are_judged_where_the_judge_knows_them() {
     let mut darker = Frame::of(&judge, &case);
     darker.light.iter_mut().for_each(|rgb| *rgb = rgb.map(|c| c / 1.5));
     for broken in [moved(&Frame::of(&judge, &case), 2), darker] {
-        let faults = found(&broken);
-        assert!(faults.iter().any(|fault| fault.contains("FLIP")), "{faults:?} {limits:?}");
+        tells(&found(&broken), &["FLIP"]);
     }
 }
