@@ -48,15 +48,11 @@ fn load(app: &mut App) {
 #[test]
 fn the_game_goes_on_or_ends_without_a_panic() {
     let mut app = game();
-    for _ in 0..5 {
-        app.update();
-    }
+    (0..5).for_each(|_| app.update());
     assert!(app.world().contains_resource::<Loading>(), "compiled in five frames");
     assert_eq!(time(&app), 0.0, "time passes while the scene loads");
     load(&mut app);
-    for _ in 0..10 {
-        app.update();
-    }
+    (0..10).for_each(|_| app.update());
     assert!(time(&app) > 0.0 && app.world().resource::<FrameToDraw>().0.is_some());
 
     let set = |app: &mut App, size: [u32; 2]| {
@@ -67,9 +63,7 @@ fn the_game_goes_on_or_ends_without_a_panic() {
     for size in [[0, 0], [1, 1], [3, 1000]] {
         let before = time(&app);
         set(&mut app, size);
-        for _ in 0..5 {
-            app.update();
-        }
+        (0..5).for_each(|_| app.update());
         assert!(app.should_exit().is_none(), "{size:?}");
         assert_eq!(app.world().resource::<CurrentShot>().0.is_none(), size == [0, 0], "{size:?}");
         assert!(time(&app) > before, "{size:?}");
@@ -90,14 +84,10 @@ fn the_game_goes_on_or_ends_without_a_panic() {
     assert!(app.world().resource::<ButtonInput<KeyCode>>().pressed(KeyCode::KeyW));
     app.world_mut().write_message(bevy::input::keyboard::KeyboardFocusLost);
     app.world_mut().write_message(WindowFocused { window, focused: false });
-    for _ in 0..3 {
-        app.update();
-    }
+    (0..3).for_each(|_| app.update());
     assert!(!app.world().resource::<ButtonInput<KeyCode>>().pressed(KeyCode::KeyW));
     let before = time(&app);
-    for _ in 0..5 {
-        app.update();
-    }
+    (0..5).for_each(|_| app.update());
     assert_eq!(time(&app), before, "the flight pauses without focus");
 
     app.world().resource::<RenderDevice>().wgpu_device().destroy();

@@ -322,16 +322,12 @@ mod tests {
         assert_eq!(screen(&app), Screen::Playing);
         app.update();
         let before = time(&app);
-        for _ in 0..5 {
-            app.update();
-        }
+        (0..5).for_each(|_| app.update());
         assert!(time(&app) > before + 0.5, "{} {before}", time(&app));
         push(&mut app, KeyCode::Escape);
         assert_eq!(screen(&app), Screen::Paused);
         let before = time(&app);
-        for _ in 0..5 {
-            app.update();
-        }
+        (0..5).for_each(|_| app.update());
         assert_eq!(time(&app), before, "time stands still");
         push(&mut app, KeyCode::Escape);
         assert_eq!(screen(&app), Screen::Playing);
@@ -341,9 +337,7 @@ mod tests {
     fn restart_is_at_the_beginning() {
         let mut app = game();
         push(&mut app, KeyCode::Enter);
-        for _ in 0..20 {
-            app.update();
-        }
+        (0..20).for_each(|_| app.update());
         let late = time(&app);
         push(&mut app, KeyCode::KeyR);
         assert!(time(&app) < 0.5 * late, "{} {late}", time(&app));
@@ -455,9 +449,7 @@ mod tests {
         app.update();
         app.world_mut().resource_mut::<Chase>().outcome = Some((Outcome::Caught, 1.0));
         let before = time(&app);
-        for _ in 0..5 {
-            app.update();
-        }
+        (0..5).for_each(|_| app.update());
         assert_eq!(time(&app), before);
     }
 
@@ -487,9 +479,7 @@ mod tests {
         let mut app = game();
         app.world_mut().resource_mut::<Session>().config_file = Some(file.clone());
         let wait = |app: &mut App| {
-            for _ in 0..12 {
-                app.update();
-            }
+            (0..12).for_each(|_| app.update());
             (app.world().resource::<Session>().config.ship.thrust, app.world().resource::<Notice>().text.clone())
         };
         wait(&mut app);

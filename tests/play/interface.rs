@@ -116,9 +116,7 @@ fn the_whole_way_by_the_keyboard() {
     let mut app = game(&folder);
     assert_eq!(screen(&app), Screen::Warning);
     let before = app.world().resource::<Clock>().time;
-    for _ in 0..5 {
-        app.update();
-    }
+    (0..5).for_each(|_| app.update());
     assert_eq!(app.world().resource::<Clock>().time, before, "nothing moves before it is read");
     choose(&mut app, "video.reduced_motion");
     choose(&mut app, "warned");
@@ -128,9 +126,7 @@ fn the_whole_way_by_the_keyboard() {
     wait_for_scene(&mut app);
     assert_eq!((screen(&app), app.world().resource::<Session>().scene.name.as_str()), (Screen::Playing, "01-training"));
     send(&mut app, KeyCode::KeyW, ButtonState::Pressed);
-    for _ in 0..5 {
-        app.update();
-    }
+    (0..5).for_each(|_| app.update());
     send(&mut app, KeyCode::KeyW, ButtonState::Released);
     assert!(app.world().resource::<PlayerState>().begun && app.world().resource::<CurrentShot>().0.is_some());
     push(&mut app, KeyCode::Escape);
@@ -161,9 +157,7 @@ fn the_whole_way_by_the_keyboard() {
     assert_eq!(screen(&app), Screen::Photo);
     let home = app.world().resource::<Photo>().camera.position;
     send(&mut app, KeyCode::KeyS, ButtonState::Pressed);
-    for _ in 0..4 {
-        app.update();
-    }
+    (0..4).for_each(|_| app.update());
     send(&mut app, KeyCode::KeyS, ButtonState::Released);
     assert!(app.world().resource::<Photo>().camera.position.distance(home) > 0.1);
     push(&mut app, KeyCode::ArrowRight);
@@ -191,9 +185,7 @@ fn the_whole_way_by_the_keyboard() {
     assert_eq!(app.world().resource::<Menu>().entries.last().unwrap().words, "もどる");
     push(&mut app, KeyCode::Escape);
     push(&mut app, KeyCode::Escape);
-    for _ in 0..8 {
-        app.update();
-    }
+    (0..8).for_each(|_| app.update());
     choose(&mut app, "quit");
     assert!(app.should_exit().is_some());
     // All of it is there at the next start, and the warning is not.

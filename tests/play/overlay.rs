@@ -234,9 +234,7 @@ fn a_moment_is_saved_and_drawn_again() {
     click(&mut app, "Time");
     click(&mut app, "freeze");
     let before = *app.world().resource::<Clock>();
-    for _ in 0..5 {
-        app.update();
-    }
+    (0..5).for_each(|_| app.update());
     assert_eq!(app.world().resource::<Clock>().tick, before.tick);
     click(&mut app, "8 steps");
     assert_eq!(app.world().resource::<Clock>().tick, before.tick + 8);
@@ -264,9 +262,7 @@ fn a_moment_is_saved_and_drawn_again() {
     let (code, words) = run(&["--set", "render.orders=1"]);
     assert!(code == Some(2) && words.contains("a moment has its own"), "{words}");
     click(&mut app, "freeze");
-    for _ in 0..3 {
-        app.update();
-    }
+    (0..3).for_each(|_| app.update());
     assert!(app.world().resource::<Clock>().tick > before.tick + 8);
 }
 

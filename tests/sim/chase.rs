@@ -173,14 +173,10 @@ fn a_ship_flown_by_hand_is_left_alone_by_its_pilot() {
     let mut app = app_of(&scene(CHASE), &GameConfig::default(), 0);
     *app.world_mut().resource_mut::<Hands>() = Hands { autopilot: false, assist: false, ..Hands::default() };
     let before = energy(&motion(app.world(), 0));
-    for _ in 0..200 {
-        app.world_mut().run_schedule(FixedUpdate);
-    }
+    (0..200).for_each(|_| app.world_mut().run_schedule(FixedUpdate));
     assert!((energy(&motion(app.world(), 0)) - before).abs() < 1e-12, "it coasted");
     app.world_mut().resource_mut::<Hands>().autopilot = true;
-    for _ in 0..200 {
-        app.world_mut().run_schedule(FixedUpdate);
-    }
+    (0..200).for_each(|_| app.world_mut().run_schedule(FixedUpdate));
     assert!((energy(&motion(app.world(), 0)) - before).abs() > 1e-3, "its pilot flies again");
 }
 

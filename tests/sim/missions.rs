@@ -237,9 +237,7 @@ fn bolts_fall_freely_and_end() {
     app.world_mut().resource_mut::<lensrunner::sim::Hands>().fire = false;
     let bolt = app.world().resource::<Bolts>().0[0].clone();
     let (e, l) = (energy(&bolt.state), angular_momentum(&bolt.state));
-    for _ in 0..1400 {
-        app.world_mut().run_schedule(FixedUpdate);
-    }
+    (0..1400).for_each(|_| app.world_mut().run_schedule(FixedUpdate));
     let after = &app.world().resource::<Bolts>().0[0];
     assert!((energy(&after.state) - e).abs() < 1e-9 * e, "{} {e}", energy(&after.state));
     assert!(angular_momentum(&after.state).distance(l) < 1e-8 * l.length());

@@ -89,9 +89,7 @@ mod tests {
         let turned = DQuat::from_rotation_y(0.5);
         let soon = follower.follow(turned, 0.05, false).angle_between(turned);
         assert!(soon > 0.1 && soon < 0.45, "{soon}");
-        for _ in 0..60 {
-            follower.follow(turned, 0.05, false);
-        }
+        (0..60).for_each(|_| follower.follow(turned, 0.05, false));
         assert!(follower.follow(turned, 0.05, false).angle_between(turned) < 1e-6);
     }
 

@@ -53,9 +53,7 @@ mod tests {
         assert_eq!(orbit.attitude(DQuat::IDENTITY), DQuat::IDENTITY);
         orbit.moved(DVec2::new(0.0, std::f64::consts::PI), 2.0);
         assert!((orbit.attitude(DQuat::IDENTITY) * DVec3::NEG_Z - DVec3::Z).length() < 1e-9, "it looks back");
-        for _ in 0..100 {
-            orbit.moved(DVec2::new(0.5, 0.7), 2.0);
-        }
+        (0..100).for_each(|_| orbit.moved(DVec2::new(0.5, 0.7), 2.0));
         assert_eq!((orbit.turn.x, orbit.zoom), (STEEPEST, ZOOM.1));
         assert!(orbit.turn.y.abs() <= std::f64::consts::PI);
     }

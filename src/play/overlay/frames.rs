@@ -110,9 +110,7 @@ mod tests {
         frames.push(30.0, &[("draw", 10.0)]);
         let of = |frames: &Frames| frames.ranking().iter().map(|(name, mean, worst, _)| (*name, *mean, *worst)).collect::<Vec<_>>();
         assert_eq!(of(&frames), [("draw", 15.0, 20.0), ("disk", 2.5, 5.0)]);
-        for _ in 0..WINDOW {
-            frames.push(30.0, &[("draw", 10.0)]);
-        }
+        (0..WINDOW).for_each(|_| frames.push(30.0, &[("draw", 10.0)]));
         assert_eq!(of(&frames), [("draw", 10.0, 10.0)]);
     }
 }

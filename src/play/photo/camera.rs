@@ -97,9 +97,7 @@ mod tests {
             assert!(camera.position.length() >= REACH.0 - 1e-9);
         }
         assert!(inside);
-        for _ in 0..2000 {
-            camera.moved(DVec3::Z, DVec3::new(0.1, 0.2, 0.3));
-        }
+        (0..2000).for_each(|_| camera.moved(DVec3::Z, DVec3::new(0.1, 0.2, 0.3)));
         assert!(camera.position.length() <= REACH.1 + 1e-6 && camera.attitude.is_normalized());
     }
 }

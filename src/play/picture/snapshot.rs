@@ -70,9 +70,7 @@ mod tests {
             .init_resource::<PlayerState>()
             .insert_resource(CurrentShot(Some(FrameCamera::afar(glam::DVec3::X * 9.0, 0.3, 1.0))));
         app.world_mut().spawn((Window { resolution: (320, 180).into(), ..default() }, PrimaryWindow));
-        for _ in 0..9 {
-            app.update();
-        }
+        (0..9).for_each(|_| app.update());
         app
     }
 
@@ -108,9 +106,7 @@ mod tests {
         app.update();
         for (frame, key) in [(3, KeyCode::KeyW), (9, KeyCode::ArrowLeft), (15, KeyCode::KeyA)] {
             press_key(&mut app, key, ButtonState::Pressed);
-            for _ in 0..frame {
-                app.update();
-            }
+            (0..frame).for_each(|_| app.update());
         }
         let flown = hold(&mut app);
         let step = app.world().resource::<Clock>().step;

@@ -74,9 +74,7 @@ mod tests {
     fn heard(screen: Screen) -> Heard {
         let session = Session::load(None, Some("chase"), Some(1)).expect("the game's own files");
         let mut app = app_of(&session.scene, &session.effective(), 1);
-        for _ in 0..64 {
-            app.world_mut().run_schedule(FixedUpdate);
-        }
+        (0..64).for_each(|_| app.world_mut().run_schedule(FixedUpdate));
         app.insert_resource(Ears(Some(Ear::of(&session)))).insert_resource(session).insert_resource(State::new(screen));
         now(app.world())
     }

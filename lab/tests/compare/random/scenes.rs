@@ -329,9 +329,7 @@ fn runs_are_counted_and_collected() {
     }
     let folder = Folder::new();
     let csv = folder.path().join("runs.csv");
-    for _ in 0..2 {
-        add(&csv, "random", "1", &Terms::default(), &rows).unwrap();
-    }
+    (0..2).for_each(|_| add(&csv, "random", "1", &Terms::default(), &rows).unwrap());
     add(&csv, "random", "2", &Terms::default(), &rows).unwrap();
     let text = std::fs::read_to_string(&csv).unwrap();
     assert!(text.contains(&COLUMNS.join(",")) && text.lines().filter(|line| line.starts_with("random,")).count() == 2, "{text}");
