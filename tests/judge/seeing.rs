@@ -259,50 +259,41 @@ fn the_judge_sees_what_is_pointed_at_in_disk_shadow_and_ring() {
     let gas = gas(|_| ());
     let disk = Some(&gas);
     let at = |r: f64, azimuth: f64, height: f64| DVec3::new(azimuth.cos() * height.cos(), azimuth.sin() * height.cos(), height.sin()) * r;
-    let all = [Shadow, PhotonRing, DiskFarSide, DiskUnderside, BlueSide, RedSide];
-
-    let far = at(15.0, 0.4, 0.3);
-    ask("hovering", facing(far, hovering(far), 1.1, [0.0; 3]), disk, &all);
-    let below = at(15.0, 2.4, -0.2);
-    ask("hovering below, turned", facing(below, hovering(below), 1.1, [0.2, -0.1, 2.0]), disk, &all);
-    ask("without a disk", facing(far, hovering(far), 1.1, [0.0; 3]), None, &[Shadow, PhotonRing]);
-    ask("away from the hole", facing(far, hovering(far), 1.1, [PI, 0.0, 0.0]), None, &[]);
-
-    let near = at(8.0, -1.0, 0.35);
+    let all = [Shadow, PhotonRing, DiskFarSide, DiskUnderside, BlueSide, RedSide, Aberration];
+    let few = [Shadow, PhotonRing, DiskFarSide, DiskUnderside, BlueSide, Aberration];
+    let (far, near, fall, inside) = (at(15.0, 0.4, 0.3), at(8.0, -1.0, 0.35), at(6.0, 1.0, 0.5), at(0.7, 0.7, 0.4));
     let circling = circular_momentum(near, DVec3::Z.cross(near)).unwrap();
-    ask(
-        "circling",
-        facing(near, circling, 1.4, [0.1, 0.1, 0.3]),
-        disk,
-        &[Shadow, PhotonRing, DiskFarSide, DiskUnderside, BlueSide, RedSide, Aberration],
-    );
-    let plane = at(10.0, 3.0, 0.01);
-    ask("near the plane", facing(plane, hovering(plane), 1.2, [0.0; 3]), disk, &all);
-    let within = at(10.0, 3.0, 0.0);
-    ask("in the plane", facing(within, hovering(within), 1.2, [0.0; 3]), disk, &[Shadow, PhotonRing, BlueSide, RedSide]);
-    let pole = at(20.0, 0.0, 0.5 * PI);
-    ask("over the pole", facing(pole, hovering(pole), 1.2, [0.0; 3]), disk, &[Shadow, RedSide]);
-
-    let fall = at(6.0, 1.0, 0.5);
-    ask(
-        "falling",
-        facing(fall, -1.2 * fall.normalize(), 1.8, [0.0; 3]),
-        disk,
-        &[Shadow, PhotonRing, DiskFarSide, DiskUnderside, BlueSide, Aberration],
-    );
-    ask(
-        "flying past",
-        facing(fall, 1.2 * fall.normalize().any_orthonormal_vector(), 1.8, [0.5, 0.0, 0.0]),
-        None,
-        &[Shadow, PhotonRing, Aberration],
-    );
-    let low = at(1.2, 0.7, 0.6);
-    ask("under the photon sphere", facing(low, hovering(low), 2.0, [0.6, 0.5, 0.0]), disk, &[Shadow]);
-    let inside = at(0.7, 0.7, 0.4);
-    ask("inside", facing(inside, DVec3::ZERO, 2.2, [0.0; 3]), disk, &[Shadow, PhotonRing, DiskFarSide, DiskUnderside, BlueSide]);
-    ask("inside, out", facing(inside, 0.5 * inside, 2.0, [PI, 0.0, 0.0]), disk, &[RedSide]);
-    ask("narrow", facing(far, hovering(far), 0.06, [0.16, 0.0, 0.0]), disk, &[Shadow]);
-    ask("wide", facing(at(60.0, 1.0, 0.3), hovering(at(60.0, 1.0, 0.3)), 2.4, [0.3, 0.2, 0.1]), disk, &all);
+    // Name, place, momentum (else it hovers), field of view, how it is turned from the hole, disk, what is pointed at.
+    type View<'a> = (&'a str, DVec3, Option<DVec3>, f64, [f64; 3], Option<&'a Gas>, &'a [Sight]);
+    let views: [View; 15] = [
+        ("hovering", far, None, 1.1, [0.0; 3], disk, &all[..6]),
+        ("hovering below, turned", at(15.0, 2.4, -0.2), None, 1.1, [0.2, -0.1, 2.0], disk, &all[..6]),
+        ("without a disk", far, None, 1.1, [0.0; 3], None, &all[..2]),
+        ("away from the hole", far, None, 1.1, [PI, 0.0, 0.0], None, &[]),
+        ("circling", near, Some(circling), 1.4, [0.1, 0.1, 0.3], disk, &all),
+        ("near the plane", at(10.0, 3.0, 0.01), None, 1.2, [0.0; 3], disk, &all[..6]),
+        ("in the plane", at(10.0, 3.0, 0.0), None, 1.2, [0.0; 3], disk, &[Shadow, PhotonRing, BlueSide, RedSide]),
+        ("over the pole", at(20.0, 0.0, 0.5 * PI), None, 1.2, [0.0; 3], disk, &[Shadow, RedSide]),
+        ("falling", fall, Some(-1.2 * fall.normalize()), 1.8, [0.0; 3], disk, &few),
+        (
+            "flying past",
+            fall,
+            Some(1.2 * fall.normalize().any_orthonormal_vector()),
+            1.8,
+            [0.5, 0.0, 0.0],
+            None,
+            &[Shadow, PhotonRing, Aberration],
+        ),
+        ("under the photon sphere", at(1.2, 0.7, 0.6), None, 2.0, [0.6, 0.5, 0.0], disk, &[Shadow]),
+        ("inside", inside, Some(DVec3::ZERO), 2.2, [0.0; 3], disk, &few[..5]),
+        ("inside, out", inside, Some(0.5 * inside), 2.0, [PI, 0.0, 0.0], disk, &[RedSide]),
+        ("narrow", far, None, 0.06, [0.16, 0.0, 0.0], disk, &[Shadow]),
+        ("wide", at(60.0, 1.0, 0.3), None, 2.4, [0.3, 0.2, 0.1], disk, &all[..6]),
+    ];
+    for (name, position, momentum, field_of_view, turned, disk, expected) in views {
+        let momentum = momentum.unwrap_or_else(|| hovering(position));
+        ask(name, facing(position, momentum, field_of_view, turned), disk, expected);
+    }
 }
 
 /// A ship on a circular orbit through `position` (r_s) at T = `time`, towards `along`.

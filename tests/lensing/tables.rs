@@ -169,22 +169,6 @@ fn nothing_happens_at_the_singular_edges() {
     }
 }
 
-/// The primary at φ = π is the secondary at φ = π, the secondary at 0 the third at 0.
-#[test]
-fn the_orders_meet_at_the_axis() {
-    for l in [0.3, 1.0, 3.0, 300.0] {
-        let slice = Slice::new(table(), l);
-        for r in [1.01, 1.5, 7.0, 4000.0] {
-            let angle = |order: u32, phi: f64| {
-                let seen = lens_lookup_at(&slice, (r * phi.cos() - l) as f32, (r * phi.sin()) as f32, (r * phi.cos()) as f32, order);
-                f64::from(seen.sin_psi).atan2(f64::from(seen.cos_psi))
-            };
-            assert!((angle(1, PI) - angle(2, PI)).abs() < 1e-6, "r {r} L {l} at π");
-            assert!((angle(2, 0.0) - angle(3, 0.0)).abs() < 1e-6, "r {r} L {l} at 0");
-        }
-    }
-}
-
 /// The camera falls through the horizon in small steps: the error against the integrator does not jump.
 #[test]
 fn falling_through_the_horizon_shows_no_seam() {

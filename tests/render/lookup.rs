@@ -55,8 +55,13 @@ impl Bench {
     }
 
     pub fn place(&self, camera: &Observer, time: f64, object: &DrawnObject, settings: &Settings) -> Vec<Placed> {
+        self.place_by(1e-9, camera, time, object, settings)
+    }
+
+    /// The same by pixels of this size, in radians.
+    pub fn place_by(&self, pixel: f64, camera: &Observer, time: f64, object: &DrawnObject, settings: &Settings) -> Vec<Placed> {
         let slice = Slice::new(self.renderer.table(), camera.radius());
-        instances_of(&View { camera, slice: &slice, pixel: 1e-9, aspect: None, settings }, time, object, settings.orders)
+        instances_of(&View { camera, slice: &slice, pixel, aspect: None, settings }, time, object, settings.orders)
     }
 
     /// The model's vertices as the GPU sees them, instance by instance.

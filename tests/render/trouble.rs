@@ -161,17 +161,11 @@ fn the_settings_of_geometry_do_what_they_say() {
     assert_eq!(none.thin, 0);
 
     // Thresholds of the instances, by a pixel of 0.01 rad.
-    use lensrunner::lensing::Slice;
     use lensrunner::render::gpu::types::placed::THIN;
-    use lensrunner::render::instances::{View, instances_of};
-    let eye = camera();
-    let slice = Slice::new(bench.renderer.table(), 15.0);
     let stand_in = bench.renderer.add_model(&shapes::icosphere(20, Material::default()));
     let mut object = bench.object(Motion::Held { position: DVec3::new(9.0, 0.0, 0.0), attitude: DQuat::IDENTITY }, 0.2, 1);
     object.coarse = stand_in;
-    let images = |settings: Settings| {
-        instances_of(&View { camera: &eye, slice: &slice, pixel: 0.01, aspect: None, settings: &settings }, 0.0, &object, 3)
-    };
+    let images = |settings: Settings| bench.place_by(0.01, &camera(), 0.0, &object, &Settings { orders: 3, ..settings });
     let count = |settings: Settings| images(settings).len();
     // The ball is 2.3 pixels wide in the first order.
     let first = |settings: Settings| images(settings)[0].clone();
@@ -194,10 +188,7 @@ fn rings_of_orders_two_and_three_are_unbroken() {
         let settings = Settings { orders: 3, least_width: 0.0, ..settings() };
         let eye = camera();
         let object = bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, radius, 1);
-        let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), 15.0);
-        let pixel = 2.0 * (0.5 * eye.field_of_view).tan() / 320.0;
-        use lensrunner::render::instances::{View, instances_of};
-        let placed = instances_of(&View { camera: &eye, slice: &slice, pixel, aspect: None, settings: &settings }, 0.0, &object, 3);
+        let placed = bench.place_by(2.0 * (0.5 * eye.field_of_view).tan() / 320.0, &eye, 0.0, &object, &settings);
         assert_eq!(placed.len(), 3);
         let picture = bench.renderer.picture(&frame(placed, settings), true).unwrap();
         // Seen on the axis: Φ = 2π or 3π.

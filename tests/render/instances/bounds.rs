@@ -2,12 +2,11 @@
 //! test that compares them.
 
 use glam::{DMat3, DQuat, DVec3, Vec3};
-use lensrunner::lensing::Slice;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::gpu::types::Cap;
-use lensrunner::render::instances::{Motion, Placed, View, instances_of};
+use lensrunner::render::instances::{Motion, Placed};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::spacetime::Observer;
@@ -23,9 +22,7 @@ fn camera() -> Observer {
 
 fn ball(bench: &Bench, position: DVec3, settings: &Settings) -> Vec<Placed> {
     let (camera, object) = (camera(), bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, 1.0, 1));
-    let slice = Slice::new(bench.renderer.table(), camera.radius());
-    let pixel = camera.field_of_view / f64::from(bench.renderer.size()[0]);
-    instances_of(&View { camera: &camera, slice: &slice, pixel, aspect: None, settings }, 0.0, &object, settings.orders)
+    bench.place_by(camera.field_of_view / f64::from(bench.renderer.size()[0]), &camera, 0.0, &object, settings)
 }
 
 /// How many pixels show the ball, and how many of its triangles were left out.

@@ -3,7 +3,8 @@
 use glam::{DMat3, DQuat, DVec3, Vec3};
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::instances::swing::{Node, swing_at};
-use lensrunner::render::instances::{Motion, Placed, instances_of};
+use lensrunner::render::instances::{DrawnObject, Motion, Placed};
+use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::sim::History;
 use lensrunner::sim::flight::Command;
@@ -42,18 +43,21 @@ fn exact(history: &History, time: f64, body: DVec3) -> DVec3 {
     now.position + y - p * (p.dot(y) / (g * (1.0 + g)))
 }
 
-/// The instance of such a ship in a camera's view, and the emission time that it is about.
+/// The instance of a body in a camera's view at T = `now`, and the emission time that it is about.
+fn seen(camera: &Observer, history: &History, reach: f64, pixel: f64, now: f64) -> (Placed, f64) {
+    let bench = bench();
+    let object = DrawnObject { reach, ..bench.object(Motion::Flying(history), 2.0 * reach, 1) };
+    let placed = bench.place_by(pixel, camera, now, &object, &Settings { orders: 1, ..Settings::finest() }).remove(0);
+    let emission = now - f64::from(placed.instance.delay);
+    (placed, emission)
+}
+
+/// The same of such a ship, with its worldline.
 fn placed(jolt: f64, now: f64) -> (History, Placed, f64) {
     let history = history(jolt);
-    let bench = bench();
     let camera = static_camera(DVec3::new(6.8, 1.2, 0.5), DVec3::NEG_X, DVec3::Z, 60f64.to_radians());
-    let object = lensrunner::render::instances::DrawnObject { reach: REACH, ..bench.object(Motion::Flying(&history), 2.0 * REACH, 1) };
-    let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
-    let settings = lensrunner::render::settings::Settings::finest();
-    let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 9e-4, aspect: None, settings: &settings };
-    let placed = instances_of(&view, now, &object, 1).remove(0);
-    let emission = now - f64::from(placed.instance.delay);
-    (history.clone(), placed, emission)
+    let (placed, emission) = seen(&camera, &history, REACH, 9e-4, now);
+    (history, placed, emission)
 }
 
 /// Where the GPU has a point of the body, `s` after the emission time, from the centre then.
@@ -86,16 +90,9 @@ fn a_planet_turns_under_a_camera_close_to_it() {
     let planet = lensrunner::scene::load("aurora-side").unwrap().planet.unwrap();
     let mut history = History::new(-8.0, &planet.state(-8.0).unwrap());
     (-15..=2).map(|k| 0.5 * f64::from(k)).for_each(|t| history.push(t, &planet.state(t).unwrap(), &Command::default()));
-    let bench = bench();
     let centre = planet.state(0.0).unwrap().position;
     let camera = static_camera(centre + DVec3::new(0.0, 0.8, 0.01), DVec3::NEG_X, DVec3::Z, 60f64.to_radians());
-    let object = bench.object(Motion::Flying(&history), 1.6, 1);
-    let object = lensrunner::render::instances::DrawnObject { reach: 0.8, ..object };
-    let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
-    let settings = lensrunner::render::settings::Settings::finest();
-    let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 9e-4, aspect: None, settings: &settings };
-    let placed = instances_of(&view, 0.0, &object, 1).remove(0);
-    let emission = -f64::from(placed.instance.delay);
+    let (placed, emission) = seen(&camera, &history, 0.8, 9e-4, 0.0);
     let at = |t: f64| {
         let state = planet.state(t).unwrap();
         (state.position, DMat3::from_quat(state.attitude), state.momentum)
@@ -126,16 +123,10 @@ fn a_ship_that_falls_inside_beside_the_camera_is_right_all_over() {
         history.push(f64::from(k) / 32.0, &now, &Command { thrust: DVec3::ZERO, rates: DVec3::ZERO });
     }
     let reach = 0.157;
-    let bench = bench();
-    let object = lensrunner::render::instances::DrawnObject { reach, ..bench.object(Motion::Flying(&history), 2.0 * reach, 1) };
     let momentum = DVec3::ZERO;
     let camera = Observer { momentum, ..static_camera(DVec3::Z * 2.0, DVec3::NEG_Z, DVec3::X, 1.7) };
     let camera = Observer { position: DVec3::Z * 0.6942, ..camera };
-    let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
-    let settings = lensrunner::render::settings::Settings::finest();
-    let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 1.9e-3, aspect: None, settings: &settings };
-    let placed = instances_of(&view, 1.5, &object, 1).remove(0);
-    let emission = 1.5 - f64::from(placed.instance.delay);
+    let (placed, emission) = seen(&camera, &history, reach, 1.9e-3, 1.5);
     assert!((1.3..1.35).contains(&emission), "{emission}");
     let fallen = |t: f64| start.normalize() * (start.length().powf(1.5) - 1.5 * t).powf(2.0 / 3.0);
     for k in -8..=8 {
