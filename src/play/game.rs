@@ -276,7 +276,7 @@ fn move_hands(
 }
 
 #[cfg(test)]
-mod tests {
+pub(in crate::play) mod tests {
     use super::*;
     use crate::play::input::tests::press_key;
     use crate::play::overlay::live::LivePlugin;
@@ -286,15 +286,28 @@ mod tests {
     use bevy::time::TimeUpdateStrategy;
     use std::time::Duration;
 
-    /// The game at the title, 0.1 s a frame.
-    fn game() -> App {
+    /// The game before its first frame, each of which takes this long.
+    pub fn game_of(frame: Duration) -> App {
         let mut app = App::new();
         app.add_plugins((MinimalPlugins, StatesPlugin, InputPlugin, SimulationPlugins, GamePlugin, LivePlugin))
-            .insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(100)))
+            .insert_resource(TimeUpdateStrategy::ManualDuration(frame))
             .insert_resource(Session::load(None, Some("chase"), Some(1)).expect("the game's own files"))
             .init_resource::<PlayerState>();
+        app
+    }
+
+    /// The game at the title, 0.1 s a frame.
+    fn game() -> App {
+        let mut app = game_of(Duration::from_millis(100));
         app.update();
         app.update();
+        app
+    }
+
+    /// The same in play.
+    fn playing() -> App {
+        let mut app = game();
+        push(&mut app, KeyCode::Enter);
         app
     }
 
@@ -335,8 +348,7 @@ mod tests {
 
     #[test]
     fn restart_is_at_the_beginning() {
-        let mut app = game();
-        push(&mut app, KeyCode::Enter);
+        let mut app = playing();
         (0..20).for_each(|_| app.update());
         let late = time(&app);
         push(&mut app, KeyCode::KeyR);
@@ -348,8 +360,7 @@ mod tests {
     #[test]
     fn a_new_chase_has_the_configured_assist() {
         let assisted = |app: &App| app.world().resource::<PlayerState>().assisted(&app.world().resource::<Session>().config);
-        let mut app = game();
-        push(&mut app, KeyCode::Enter);
+        let mut app = playing();
         assert!(assisted(&app));
         push(&mut app, KeyCode::KeyZ);
         assert!(!assisted(&app));
@@ -367,8 +378,7 @@ mod tests {
 
     #[test]
     fn one_looks_at_the_target_while_the_key_is_held() {
-        let mut app = game();
-        push(&mut app, KeyCode::Enter);
+        let mut app = playing();
         let looking = |app: &App| app.world().resource::<PlayerState>().looking;
         assert!(!looking(&app));
         press_key(&mut app, KeyCode::KeyV, ButtonState::Pressed);
@@ -399,8 +409,7 @@ mod tests {
 
     #[test]
     fn a_decided_chase_shows_its_result() {
-        let mut app = game();
-        push(&mut app, KeyCode::Enter);
+        let mut app = playing();
         app.world_mut().resource_mut::<Chase>().outcome = Some((Outcome::Caught, 1.0));
         app.update();
         app.update();
@@ -411,8 +420,7 @@ mod tests {
 
     #[test]
     fn keys_thrust_by_hand_and_not_under_autopilot() {
-        let mut app = game();
-        push(&mut app, KeyCode::Enter);
+        let mut app = playing();
         let thrust = |app: &mut App| {
             let mut ships = app.world_mut().query_filtered::<&crate::sim::Controls, With<Player>>();
             ships.single(app.world()).expect("one player").0.thrust
@@ -444,8 +452,7 @@ mod tests {
 
     #[test]
     fn nothing_moves_after_the_end() {
-        let mut app = game();
-        push(&mut app, KeyCode::Enter);
+        let mut app = playing();
         app.update();
         app.world_mut().resource_mut::<Chase>().outcome = Some((Outcome::Caught, 1.0));
         let before = time(&app);
@@ -455,8 +462,7 @@ mod tests {
 
     #[test]
     fn pace_is_doubled_and_halved() {
-        let mut app = game();
-        push(&mut app, KeyCode::Enter);
+        let mut app = playing();
         let pace = app.world().resource::<Session>().config.clock.pace;
         push(&mut app, KeyCode::Period);
         assert_eq!(app.world().resource::<Session>().config.clock.pace, 2.0 * pace);

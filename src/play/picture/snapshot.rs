@@ -50,25 +50,18 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::play::game::GamePlugin;
+    use crate::play::game::begin;
+    use crate::play::game::tests::game_of;
     use crate::play::input::tests::press_key;
     use crate::play::menus::screens::Screen;
-    use crate::play::overlay::live::LivePlugin;
-    use crate::play::player_state::PlayerState;
     use crate::sim::snapshot::FrameCamera;
-    use crate::sim::{Fleet, History, SimulationPlugins};
-    use bevy::input::{ButtonState, InputPlugin};
-    use bevy::state::app::StatesPlugin;
-    use bevy::time::TimeUpdateStrategy;
+    use crate::sim::{Fleet, History};
+    use bevy::input::ButtonState;
 
     /// The game at the title, 0.37 steps more than a whole number a frame, with a window and a camera from far.
     fn game() -> App {
-        let mut app = App::new();
-        app.add_plugins((MinimalPlugins, StatesPlugin, InputPlugin, SimulationPlugins, GamePlugin, LivePlugin))
-            .insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_secs_f64(3.37 / 48.0)))
-            .insert_resource(Session::load(None, Some("chase"), Some(1)).expect("the game's own files"))
-            .init_resource::<PlayerState>()
-            .insert_resource(CurrentShot(Some(FrameCamera::afar(glam::DVec3::X * 9.0, 0.3, 1.0))));
+        let mut app = game_of(Duration::from_secs_f64(3.37 / 48.0));
+        app.insert_resource(CurrentShot(Some(FrameCamera::afar(glam::DVec3::X * 9.0, 0.3, 1.0))));
         app.world_mut().spawn((Window { resolution: (320, 180).into(), ..default() }, PrimaryWindow));
         (0..9).for_each(|_| app.update());
         app
@@ -101,7 +94,7 @@ mod tests {
         app.world_mut().resource_mut::<Session>().config.clock.pace = 3.0;
         app.update();
         hold(&mut app);
-        crate::play::game::begin(app.world_mut(), Screen::Playing);
+        begin(app.world_mut(), Screen::Playing);
         app.world_mut().resource_mut::<NextState<Screen>>().set(Screen::Playing);
         app.update();
         for (frame, key) in [(3, KeyCode::KeyW), (9, KeyCode::ArrowLeft), (15, KeyCode::KeyA)] {
@@ -117,7 +110,7 @@ mod tests {
     #[test]
     fn what_cannot_come_again_is_said() {
         let mut app = game();
-        crate::play::game::begin(app.world_mut(), Screen::Playing);
+        begin(app.world_mut(), Screen::Playing);
         app.update();
         assert!(snapshot(app.world_mut()).is_ok());
         app.world_mut().remove_resource::<ReplayLog>();
