@@ -10,11 +10,11 @@ use lensrunner::judge::picture::{DEFAULT_PACKET, Quality};
 use lensrunner::picture_file::text::read_text;
 use lensrunner::picture_file::{png, write_png_with_text};
 use lensrunner::play::camera::{CameraView, on_ship, state_of};
-use lensrunner::play::demonstration::{DemonstrationRequest, fly};
+use lensrunner::play::demonstration::{DemonstrationRequest, drawn, fly};
 use lensrunner::play::develop::{Developing, Progress};
 use lensrunner::play::session::Session;
 use lensrunner::render::Renderer;
-use lensrunner::render::gpu::readback::{self, Picture};
+use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::gpu::targets::target;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::shot::{shot_again, surroundings};
@@ -99,13 +99,13 @@ fn assert_same(name: &str, before: &[u8], again: &[u8]) {
     assert!(before.len() == again.len() && off * 500 <= again.len());
 }
 
-/// From the file alone the game's picture comes again, once the eye has adapted; the judge's shows the same bodies at
-/// all pixels but some along edges, where the one's point of a pixel is just beside the other's.
 /// The file of the exact picture beside another.
 fn exact(picture: &Path) -> PathBuf {
     picture.with_extension("exact.png")
 }
 
+/// From the file alone the game's picture comes again, once the eye has adapted; the judge's shows the same bodies at all pixels but some
+/// along edges, where the one's point of a pixel is just beside the other's.
 #[test]
 fn a_picture_is_made_again_from_its_file() {
     let folder = Folder::new();
@@ -176,11 +176,7 @@ fn frames_of_the_demonstration_are_made_again() {
         let settings = Settings { own_ship: shot.lit, engines, adaptation, ..settings(&config) };
         let mut stage = Stage::new(&mut renderer, &moment.scene, &snapshot.levelled(&moment.scene));
         let input = stage.frame(shot.camera, SIZE, snapshot.time, &moment.all_histories(), shot.hidden, &settings);
-        assert!(renderer.prepare(&input));
-        let mut encoder = GPU.device.create_command_encoder(&Default::default());
-        renderer.encode(&mut encoder, &view);
-        GPU.queue.submit([encoder.finish()]);
-        let pixels = readback::texture(&GPU, &texture, 4).unwrap();
+        let pixels = drawn(&GPU, &mut renderer, &input, (&texture, &view)).unwrap();
         let again: Vec<u8> = pixels.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
         assert_same(&format!("T = {}", snapshot.time), &before, &again);
         if frame == 0 {

@@ -5,7 +5,7 @@
 use rayon::prelude::*;
 
 /// Pixels for one degree of the field of view: a screen 0.7 m wide with 3,840 pixels, seen from 0.7 m (section 4.1).
-pub const PIXELS_PER_DEGREE: f64 = 67.020_643_276_582_25;
+const PIXELS_PER_DEGREE: f64 = 67.020_643_276_582_25;
 
 /// Exponent of the colour difference (section 4.1.3).
 const COLOUR_POWER: f64 = 0.7;

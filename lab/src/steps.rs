@@ -21,7 +21,7 @@ pub struct StepsRequest {
 }
 
 /// Numbers of coasting ships.
-pub const SHIPS: [usize; 3] = [2, 20, 200];
+const SHIPS: [usize; 3] = [2, 20, 200];
 /// Runs of each; the quickest counts, as others on the machine only make it slower.
 const RUNS: usize = 5;
 /// Steps before the first that is timed: until then histories grow and memory is fetched.

@@ -39,7 +39,7 @@ pub fn bake(scheme: Scheme, nodes: usize, done: impl Fn(f64) + Sync) -> Table {
 }
 
 /// The name of the small committed table.
-pub const DEFAULT_PATH: &str = "tables/default.lut";
+const DEFAULT_PATH: &str = "tables/default.lut";
 
 /// The committed table. Where its file cannot be used, `complain` is told why, and the one inside the program takes its place; where that
 /// cannot either, it is baked again.

@@ -10,13 +10,13 @@ use std::f64::consts::PI;
 use std::io::{Read, Write};
 
 /// φ this close to 0 or π (radians) is moved to this distance: on the axis itself the ray's plane is not defined.
-pub const AXIS_CLEARANCE: f64 = 1e-9;
+const AXIS_CLEARANCE: f64 = 1e-9;
 
 /// The header of the input.
-pub const INPUT_HEADER: &str = "r,phi,L";
+const INPUT_HEADER: &str = "r,phi,L";
 
 /// The header of the output.
-pub const OUTPUT_HEADER: &str = "r,phi,L,psi,delay,redshift";
+const OUTPUT_HEADER: &str = "r,phi,L,psi,delay,redshift";
 
 /// Significant digits of the output.
 const DIGITS: usize = 12;

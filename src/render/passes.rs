@@ -209,6 +209,6 @@ pub fn depth(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassDepthSten
 }
 
 /// Depth that is only tested, so that passes one after the other need not wait for it.
-pub fn tested_depth(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+fn tested_depth(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
     wgpu::RenderPassDepthStencilAttachment { view, depth_ops: None, stencil_ops: None }
 }

@@ -58,7 +58,7 @@ pub fn blackbody_xyz(temperature: f64) -> [f64; 3] {
 }
 
 /// The luminance of a black body at [`UNIT_TEMPERATURE`], in cd/m²: the unit of [`blackbody_rgb`].
-pub fn unit_luminance() -> f64 {
+fn unit_luminance() -> f64 {
     static UNIT: OnceLock<f64> = OnceLock::new();
     *UNIT.get_or_init(|| blackbody_xyz(UNIT_TEMPERATURE)[1])
 }

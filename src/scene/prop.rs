@@ -31,12 +31,12 @@ use super::model::texture;
 use super::model::{Material, Model};
 
 /// The most spheres in all lattices of a scene, those too near to the hole included.
-pub const MAX_LATTICE: u64 = 200_000;
+const MAX_LATTICE: u64 = 200_000;
 /// Most triangles of one shape, and of all shapes of a scene: what the smallest buffers hold that a graphics adapter must offer (128 MiB),
 /// in three image orders.
-pub const MAX_TRIANGLES_EACH: u32 = super::model::MOST_TRIANGLES as u32;
+const MAX_TRIANGLES_EACH: u32 = super::model::MOST_TRIANGLES as u32;
 /// Those of all shapes of a scene.
-pub const MAX_TRIANGLES: u64 = 800_000;
+const MAX_TRIANGLES: u64 = 800_000;
 
 /// Something held in place.
 #[derive(Debug, Clone, PartialEq)]

@@ -37,11 +37,11 @@ use crate::spacetime::matter::{SINGULARITY_RADIUS, ShipState};
 use crate::spacetime::orbit::{Elements, OrbitError};
 
 /// The farthest a ship may start, in r_s.
-pub const MAX_START_RADIUS: f64 = 1e6;
+const MAX_START_RADIUS: f64 = 1e6;
 /// The largest starting momentum per mass, in c. Beyond it γ − βn·p loses the energy to rounding.
 pub const MAX_START_MOMENTUM: f64 = 1e6;
 /// The largest proper acceleration in a programme or of an engine, in c²/r_s.
-pub const MAX_ACCELERATION: f64 = 1e3;
+const MAX_ACCELERATION: f64 = 1e3;
 
 /// Who flies a ship.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
@@ -240,7 +240,7 @@ pub fn check_ships(entries: &[Spanned<ShipEntry>]) -> Result<Vec<ShipSpec>, Faul
 }
 
 /// Checks one ship.
-pub fn check_ship(entry: &Spanned<ShipEntry>) -> Result<ShipSpec, Fault> {
+fn check_ship(entry: &Spanned<ShipEntry>) -> Result<ShipSpec, Fault> {
     let whole = entry.span();
     let entry = entry.get_ref();
     let name = entry.name.get_ref();

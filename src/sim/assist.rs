@@ -93,7 +93,7 @@ pub fn assisted(state: &ShipState, stick: &Stick, engine: &Engine, reference: Re
 }
 
 /// The rain-frame momentum (c) of what rests in `reference` at the ship's place; the rain's own where there is no such thing.
-pub fn reference_momentum(state: &ShipState, reference: Reference) -> DVec3 {
+fn reference_momentum(state: &ShipState, reference: Reference) -> DVec3 {
     let momentum = match reference {
         Reference::Static => static_momentum(state.position),
         Reference::Orbit => circular_momentum(state.position, velocity(state)),

@@ -56,7 +56,7 @@ fn pairs() -> impl Iterator<Item = (Difficulty, Crew)> {
 }
 
 /// Flies them all; `done` is told of each.
-pub fn fly_all(missions: &[Scene], config: &GameConfig, seeds: std::ops::Range<u64>, done: &(dyn Fn() + Sync)) -> Vec<BalanceRow> {
+fn fly_all(missions: &[Scene], config: &GameConfig, seeds: std::ops::Range<u64>, done: &(dyn Fn() + Sync)) -> Vec<BalanceRow> {
     let all: Vec<_> = (0..missions.len())
         .flat_map(|mission| pairs().map(move |(difficulty, crew)| (mission, difficulty, crew)))
         .flat_map(|(mission, difficulty, crew)| seeds.clone().map(move |seed| (mission, difficulty, crew, seed)))

@@ -14,7 +14,7 @@ use crate::spacetime::frames::rest_to_rain;
 use crate::spacetime::matter::{ShipState, has_ended};
 
 /// The speed at which a bolt leaves a ship, in c.
-pub const MUZZLE_SPEED: f64 = 0.8;
+const MUZZLE_SPEED: f64 = 0.8;
 /// Its momentum per mass, in c: γv.
 const MUZZLE_MOMENTUM: f64 = MUZZLE_SPEED / 0.6;
 /// A bolt hits what it passes within this distance on the slice T = const, in r_s: about a ship's length.
@@ -22,7 +22,7 @@ pub const HIT_RADIUS: f64 = 0.3;
 /// How long a bolt flies, in r_s/c of T.
 pub const LIFE: f64 = 40.0;
 /// T between two bolts of a ship, in r_s/c.
-pub const RELOAD: f64 = 0.75;
+const RELOAD: f64 = 0.75;
 
 /// A ship's gun.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]

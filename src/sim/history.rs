@@ -14,7 +14,7 @@ use super::flight::Command;
 
 /// Backwards in T, ingoing coordinates do not reach the white hole: a ship inside the horizon that came out of it hugs r = 1 with momentum
 /// growing as exp(|T|/2). Past this momentum (c) it is held where it is; its light is redshifted beyond sight long before.
-pub const MAX_PAST_MOMENTUM: f64 = 1e6;
+const MAX_PAST_MOMENTUM: f64 = 1e6;
 
 /// Nodes that a look beyond the known past leaves behind, at most; what is still older is integrated at each look.
 const MAX_LOOKED_UP: usize = 100_000;

@@ -185,7 +185,7 @@ pub struct Defaults {
 }
 
 /// Spawns the ships of a scene in its order and inserts the [`Fleet`]. Ships of an earlier scene are despawned.
-pub fn muster(world: &mut World, specs: &[ShipSpec], defaults: &Defaults, time: f64) {
+fn muster(world: &mut World, specs: &[ShipSpec], defaults: &Defaults, time: f64) {
     if let Some(old) = world.remove_resource::<Fleet>() {
         for entity in old.0 {
             world.despawn(entity);

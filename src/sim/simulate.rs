@@ -19,11 +19,11 @@ use super::{Clock, History, SimEvent, app_of, board, outcome};
 pub const COLUMNS: &str = "ship,T,tau,x,y,z,px,py,pz,qw,qx,qy,qz,E,Lx,Ly,Lz";
 
 /// The end of the run unless asked otherwise, in r_s/c; a chase ends with its time limit.
-pub const DEFAULT_UNTIL: f64 = 100.0;
+const DEFAULT_UNTIL: f64 = 100.0;
 /// T between rows unless asked otherwise, in r_s/c.
 pub const DEFAULT_EVERY: f64 = 1.0;
 /// The most rows of T one run writes.
-pub const MAX_ROWS: f64 = 1e8;
+const MAX_ROWS: f64 = 1e8;
 
 /// How much of the ships' histories a run keeps, in r_s/c: more than the longest reaction delay.
 const KEEP: f64 = 100.0;

@@ -24,7 +24,7 @@ pub const SINGULARITY_RADIUS: f64 = 0.01;
 pub const STEP_SHARE: f64 = 0.125;
 
 /// The number of Runge–Kutta steps one call of [`step`] may take; reached only by absurd thrust, rates or step lengths.
-pub const MAX_SUBSTEPS: u32 = 1 << 20;
+const MAX_SUBSTEPS: u32 = 1 << 20;
 
 /// What moves: one ship, at one instant T.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! Reduced flashes: the mean brightness of pictures as they are shown rises no faster than it may, and reaches the same in the end.
 
 use glam::{DQuat, DVec3};
+use lensrunner::play::demonstration::drawn;
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::gpu::readback;
 use lensrunner::render::gpu::targets::target;
 use lensrunner::render::renderer::Renderer;
 use lensrunner::render::settings::{GREATEST_RISE, Settings, greatest_rise};
@@ -12,7 +12,7 @@ use lensrunner::sim::Moment;
 use lensrunner::spacetime::Observer;
 
 use crate::gpu::GPU;
-use crate::render::support::renderer;
+use crate::render::support::{linear, renderer};
 
 const SIZE: [u32; 2] = [160, 90];
 /// Simulated time of a frame, in s.
@@ -52,11 +52,7 @@ impl Show {
     /// The picture on the screen, sRGB.
     fn draw(&mut self, camera: Observer, settings: &Settings) -> Vec<u8> {
         let frame: FrameInput = self.stage.frame(camera, self.renderer.size(), 0.0, &self.moment.histories(), None, settings);
-        assert!(self.renderer.prepare(&frame));
-        let mut encoder = GPU.device.create_command_encoder(&Default::default());
-        self.renderer.encode(&mut encoder, &self.output.1);
-        GPU.queue.submit([encoder.finish()]);
-        readback::texture(&GPU, &self.output.0, 4).unwrap()
+        drawn(&GPU, &mut self.renderer, &frame, (&self.output.0, &self.output.1)).unwrap()
     }
 
     /// The mean brightness of the next frame without a bound, and with it.
@@ -82,10 +78,6 @@ fn output(size: [u32; 2]) -> (wgpu::Texture, wgpu::TextureView) {
 
 /// Mean relative luminance of a picture, 1 for white (IEC 61966-2-1, ITU-R BT.709).
 fn mean(picture: &[u8]) -> f64 {
-    let linear = |encoded: u8| {
-        let value = f64::from(encoded) / 255.0;
-        if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
-    };
     let light = |p: &[u8]| 0.2126 * linear(p[0]) + 0.7152 * linear(p[1]) + 0.0722 * linear(p[2]);
     picture.chunks_exact(4).map(light).sum::<f64>() / (picture.len() / 4) as f64
 }

@@ -177,15 +177,7 @@ fn the_ring_is_where_the_judge_sees_it() {
             .collect(),
         triangles: model.triangles.clone(),
     };
-    let judge = PixelCamera {
-        observer: Observer {
-            position: camera.position,
-            momentum: camera.momentum,
-            attitude: camera.attitude,
-            field_of_view: camera.field_of_view,
-        },
-        size,
-    };
+    let judge = PixelCamera { observer: camera, size };
     let id = |x: usize, y: usize| picture.layers[y * 320 + x][0];
     let (mut hits, mut wrong, mut checked) = (0, 0, 0);
     for y in (2..178).step_by(5) {

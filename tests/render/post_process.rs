@@ -88,13 +88,8 @@ fn outlines_of_bodies_are_smooth() {
     assert!(smooth < 0.9 * plain, "off by {smooth} with smoothing, {plain} without");
 }
 
-/// The chase at its start, ready to be drawn 160 × 90 pixels large.
-fn a_chase() -> ([u32; 2], GameConfig, Renderer, Stage, Moment) {
-    a_chase_of([160, 90])
-}
-
-/// The same in any size.
-fn a_chase_of(size: [u32; 2]) -> ([u32; 2], GameConfig, Renderer, Stage, Moment) {
+/// The chase at its start, ready to be drawn.
+fn a_chase(size: [u32; 2]) -> ([u32; 2], GameConfig, Renderer, Stage, Moment) {
     let mut config = GameConfig::default();
     // Its strokes are added in any order, which rounding tells.
     config.aurora.enabled = false;
@@ -110,7 +105,7 @@ fn a_chase_of(size: [u32; 2]) -> ([u32; 2], GameConfig, Renderer, Stage, Moment)
 /// all of it.
 #[test]
 fn the_own_ship_is_lit_for_the_exposure() {
-    let (size, config, mut renderer, mut stage, moment) = a_chase();
+    let (size, config, mut renderer, mut stage, moment) = a_chase([160, 90]);
     let mut draw = |own_ship, exposure: f32| {
         let settings =
             Settings { own_ship, exposure_range: [exposure; 2], bloom: 0.0, smooth: false, orders: 1, ..stage::settings(&config) };
@@ -156,7 +151,7 @@ fn the_own_ship_is_lit_for_the_exposure() {
 /// A ship that is lit as white as one likes moves the exposure of nothing else: the finished picture beside it stays as it is.
 #[test]
 fn the_own_ship_is_not_metered() {
-    let (size, config, mut renderer, mut stage, moment) = a_chase();
+    let (size, config, mut renderer, mut stage, moment) = a_chase([160, 90]);
     let mut draw = |fill| {
         let settings = Settings { own_ship: Some(0), fill, bloom: 0.0, smooth: false, orders: 1, ..stage::settings(&config) };
         let frame = stage.frame(stage.camera(0.0, &moment.ships()), size, 0.0, &moment.histories(), None, &settings);
@@ -183,7 +178,7 @@ fn lit_ship(ship: &[usize], pixel: usize, size: [u32; 2]) -> bool {
 /// the images come to lie in tiles that they were in, at other places.
 #[test]
 fn thin_images_leave_nothing_behind() {
-    let (size, config, mut renderer, mut stage, moment) = a_chase_of([480, 270]);
+    let (size, config, mut renderer, mut stage, moment) = a_chase([480, 270]);
     let settings = Settings { stars: false, milky_way: false, ..stage::settings(&config) };
     let camera = stage.camera(moment.time(), &moment.ships());
     let mut turned = |degrees: f64| {

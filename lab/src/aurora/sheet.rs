@@ -20,7 +20,7 @@ pub const FALLS: usize = 512;
 /// Reaches µR(E) of the first and last row, g cm⁻².
 const REACHES: [f64; 2] = [1e-8, 2e-2];
 /// How far astray an electron is at the lowest level, at most, km.
-pub const SWAY: f64 = 0.25;
+const SWAY: f64 = 0.25;
 /// The magnetic latitude of the patch, radians: its field is inclined by 78°.
 const LATITUDE: f64 = 1.185;
 

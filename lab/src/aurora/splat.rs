@@ -17,7 +17,7 @@ pub const REACH: f32 = 3.0;
 /// The narrowest splat, pixels: below, light would depend on where in its pixel a point is.
 pub const LEAST_SIGMA: f32 = 0.5;
 /// The widest, pixels: a point a kilometre before the camera must not take the whole frame's time.
-pub const MOST_SIGMA: f32 = 40.0;
+const MOST_SIGMA: f32 = 40.0;
 /// Entries of the tabulated Gaussian per standard deviation.
 const ENTRIES: usize = 128;
 

@@ -31,7 +31,7 @@ impl Default for Limits {
 }
 
 /// How far outlines may be off in small pictures, in pixels: a fiftieth of the half pixel that points inside of an image may be off.
-pub const SMALL_OUTLINE: f64 = 0.01;
+const SMALL_OUTLINE: f64 = 0.01;
 
 impl Limits {
     /// For pictures of a few hundred pixels across with one ray a pixel, of which `orders` image orders are drawn.

@@ -50,7 +50,7 @@ impl Case {
 /// The radial period of an orbit with p = 10 M and e = 0.5, r_s/c.
 pub const ECCENTRIC_PERIOD: f64 = 433.900_542_311_5 / 2.0;
 /// That of one with p = 7.01 M and e = 0.5, which whirls 4.8 times round the hole in each.
-pub const WHIRL_PERIOD: f64 = 513.010_399_630_2 / 2.0;
+const WHIRL_PERIOD: f64 = 513.010_399_630_2 / 2.0;
 /// Where the fall begins, at rest, in r_s.
 pub const DROP: f64 = 5.0;
 

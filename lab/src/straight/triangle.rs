@@ -88,7 +88,7 @@ fn edges(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> [f32; 3] {
 
 /// (x, y, z) of the shear: the two axes after `axis`, and `axis`.
 #[inline]
-pub fn permuted(v: [f32; 3], axis: usize) -> [f32; 3] {
+fn permuted(v: [f32; 3], axis: usize) -> [f32; 3] {
     match axis {
         0 => [v[1], v[2], v[0]],
         1 => [v[2], v[0], v[1]],

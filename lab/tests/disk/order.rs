@@ -68,15 +68,13 @@ fn left(renderer: &mut Renderer, camera: Observer, all: &[(DVec3, f64)], config:
     let with = balls(renderer, camera, all, config, true, settings);
     let alone = balls(renderer, camera, all, config, false, settings);
     let gas = Gas::new(&config.disk, config.hole.mass_solar);
-    let eye =
-        Observer { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };
     let image = |number: usize, order: u32| {
         let (mut drawn, mut exact, mut whole, mut most, mut crossings) = (0.0, 0.0, 0.0, 0.0, [0; 2]);
         let mut middle = [0.0; 2];
         for (k, layer) in alone.layers.iter().enumerate().filter(|(_, layer)| (layer[0], layer[1]) == (number as f32, order as f32)) {
             let light = f64::from(alone.linear[k][1]);
             let at = [k as u32 % SIZE[0], k as u32 / SIZE[0]].map(|c| f64::from(c) + 0.5);
-            let all = exact::crossings(&gas, &eye, SIZE, at, 3);
+            let all = exact::crossings(&gas, &camera, SIZE, at, 3);
             let before = all.iter().filter(|crossing| crossing.path < f64::from(layer[2]));
             let stops = |c: &Crossing| gas.emission(c.radius, c.azimuth, -c.path).opacity(c.cosine, c.path);
             drawn += f64::from(with.linear[k][1]);

@@ -16,11 +16,11 @@ use crate::lensing::closed_form::elementary::single::{log1p, stumpff};
 use crate::lensing::single::LensCamera;
 
 /// Steps of Newton's method: the sixth changes the direction by less than 0.001°.
-pub const INSIDE_STEPS: u32 = 6;
+const INSIDE_STEPS: u32 = 6;
 /// A relative error of Φ that needs no further step: rounding has as much.
-pub const INSIDE_CLOSE: f32 = 3e-7;
+const INSIDE_CLOSE: f32 = 3e-7;
 /// Nodes of Gauss's rule on (−1, 1), one half, and their weights (Abramowitz & Stegun 25.4.30, n = 12): the rule leaves 0.0002°.
-pub const INSIDE_NODES: [[f32; 2]; 6] = [
+const INSIDE_NODES: [[f32; 2]; 6] = [
     [0.125_233_41, 0.249_147_05],
     [0.367_831_5, 0.233_492_54],
     [0.587_317_94, 0.203_167_43],
@@ -43,7 +43,7 @@ pub struct Path {
 }
 
 /// The integrals from L to r of the path with q = e²; `zl` = 1 − L, `zr` = 1 − r, `dr` = r − L.
-pub fn inside_path(q: f32, l: f32, r: f32, zl: f32, zr: f32, dr: f32) -> Path {
+fn inside_path(q: f32, l: f32, r: f32, zl: f32, zr: f32, dr: f32) -> Path {
     let mut d = 0.5;
     if q < INSIDE_ROOT {
         // δ = q (1 + δ)³ by Newton's method.

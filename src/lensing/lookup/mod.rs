@@ -39,7 +39,7 @@ pub struct LensRay {
 }
 
 /// The answer where there is none.
-pub const NOTHING: LensRay = LensRay {
+const NOTHING: LensRay = LensRay {
     cos_psi: 1.0,
     sin_psi: 0.0,
     delay: 0.0,
@@ -57,7 +57,7 @@ pub const NOTHING: LensRay = LensRay {
 pub const LEAST_LAPSE2: f32 = 1e-7;
 
 /// The outermost weight at a node.
-pub const SIXTH: f32 = 1.0 / 6.0;
+const SIXTH: f32 = 1.0 / 6.0;
 
 /// The residuals of `slice` at its coordinates `x` and `y` in 0..=1, clamped.
 #[inline]
@@ -154,14 +154,14 @@ pub fn lookup(slice: &Slice, at: SourcePoint, sweep: f32, elapsed: f32) -> LensR
 
 /// The ray with these (w, e, w_e, delay) between a camera and a point at c = 1/r, `lapse2` = 1 − c.
 #[inline]
-pub fn ray_of(cam: &LensCamera, c: f32, lapse2: f32, [w, e, w_e, delay]: [f32; 4]) -> LensRay {
+fn ray_of(cam: &LensCamera, c: f32, lapse2: f32, [w, e, w_e, delay]: [f32; 4]) -> LensRay {
     let cones = light_cones((w, w_e), e, (cam.a, c), (cam.beta, c.sqrt()), (cam.lapse2, lapse2));
     ray_with(cam, c, [w, e, w_e, delay], cones)
 }
 
 /// The same with the photon's [`light_cones`].
 #[inline]
-pub fn ray_with(cam: &LensCamera, c: f32, [w, e, w_e, delay]: [f32; 4], [seen, emitted, seen_less, emitted_less]: [f32; 4]) -> LensRay {
+fn ray_with(cam: &LensCamera, c: f32, [w, e, w_e, delay]: [f32; 4], [seen, emitted, seen_less, emitted_less]: [f32; 4]) -> LensRay {
     let twice = seen + seen_less;
     let left = emitted + emitted_less;
     if !finite(twice.abs() + left.abs() + w.abs() + w_e.abs() + delay.abs()) {

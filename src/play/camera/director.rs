@@ -36,7 +36,7 @@ const PLAN: [(f64, Shot); 7] = [
 ];
 
 /// The shot at `share` of the flight, in [0, 1].
-pub fn shot_at(share: f64) -> Shot {
+fn shot_at(share: f64) -> Shot {
     PLAN.iter().find(|(end, _)| share < *end).map_or(PLAN[PLAN.len() - 1].1, |(_, shot)| *shot)
 }
 

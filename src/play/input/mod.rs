@@ -231,7 +231,7 @@ pub(in crate::play) mod tests {
     }
 
     /// Plugs a gamepad in: the events that the driver's plugin sends, which needs none.
-    pub(in crate::play) fn plug_pad(app: &mut App) -> Entity {
+    fn plug_pad(app: &mut App) -> Entity {
         let pad = app.world_mut().spawn_empty().id();
         let connection = GamepadConnection::Connected { name: "test".into(), vendor_id: None, product_id: None };
         let event = GamepadConnectionEvent { gamepad: pad, connection };
@@ -249,12 +249,12 @@ pub(in crate::play) mod tests {
     }
 
     /// Pushes a stick of it.
-    pub(in crate::play) fn push_stick(app: &mut App, gamepad: Entity, axis: GamepadAxis, value: f32) {
+    fn push_stick(app: &mut App, gamepad: Entity, axis: GamepadAxis, value: f32) {
         app.world_mut().write_message(RawGamepadEvent::Axis(RawGamepadAxisChangedEvent { gamepad, axis, value }));
     }
 
     /// Presses a button of it, or lets it go.
-    pub(in crate::play) fn press_pad(app: &mut App, gamepad: Entity, button: GamepadButton, value: f32) {
+    fn press_pad(app: &mut App, gamepad: Entity, button: GamepadButton, value: f32) {
         app.world_mut().write_message(RawGamepadEvent::Button(RawGamepadButtonChangedEvent { gamepad, button, value }));
     }
 

@@ -231,7 +231,7 @@ fn buttons(session: &Session, menu: &Menu) -> Vec<Entry> {
 }
 
 /// What an action is called.
-pub fn action_words(language: Language, action: Action) -> String {
+fn action_words(language: Language, action: Action) -> String {
     language.say(&format!("action-{}", action.key().replace('_', "-")))
 }
 

@@ -14,7 +14,7 @@ pub(super) const FIELD: (f64, f64, f64) = (20.0, 130.0, 5.0);
 /// Stops: least, greatest, step.
 pub(super) const STOPS: (f64, f64, f64) = (-4.0, 4.0, 0.5);
 /// Light that the lens spreads: least, greatest, step.
-pub(super) const BLOOM: (f64, f64, f64) = (0.0, 1.0, 0.05);
+const BLOOM: (f64, f64, f64) = (0.0, 1.0, 0.05);
 
 /// What photo mode has been set to.
 #[derive(Resource, Clone, Copy, Debug)]

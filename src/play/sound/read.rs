@@ -24,7 +24,7 @@ use crate::spacetime::light::Order;
 use crate::spacetime::matter::ShipState;
 
 /// The hole is too near below this radius, in r_s.
-pub const TOO_NEAR: f64 = 2.0;
+const TOO_NEAR: f64 = 2.0;
 /// How dangerous it is that the time is nearly out: of 1.
 const HURRY: f64 = 0.6;
 /// Radii at which the disk's depth is looked at for its greatest.

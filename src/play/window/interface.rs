@@ -59,7 +59,7 @@ fn spawn_camera(target: Res<Target>, mut images: ResMut<Assets<Image>>, mut comm
 }
 
 /// In a window lower or narrower than this (logical pixels) the interface shrinks with it: the HUD is laid out for it.
-pub(in crate::play) const INTERFACE: [f32; 2] = [900.0, 620.0];
+const INTERFACE: [f32; 2] = [900.0, 620.0];
 
 /// In a window lower or narrower than this (logical pixels) there is no room for a card.
 const NO_ROOM: f32 = 100.0;

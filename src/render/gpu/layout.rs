@@ -295,7 +295,7 @@ pub fn module_of(device: &wgpu::Device, label: &str, shader: wgpu::naga::Module)
 }
 
 /// A pipeline layout of these groups.
-pub fn pipeline_layout(device: &wgpu::Device, label: &str, layouts: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::PipelineLayout {
+fn pipeline_layout(device: &wgpu::Device, label: &str, layouts: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::PipelineLayout {
     device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { label: Some(label), bind_group_layouts: layouts, immediate_size: 0 })
 }
 

@@ -191,7 +191,7 @@ fn set_strictness(instance: &mut Instance, view: &View, width: f64, order: Order
 /// How often light of an image order crosses the plane z = 0 on its way from `height` (z of its source) to the camera at `camera_height`.
 /// The ray stays in a plane through the hole and sweeps n − 1 to n half turns about it, each of which crosses z = 0 once. So it crosses n −
 /// 1 or n times: the odd number if its ends are on different sides. So many of the disk's own images are in front of it.
-pub fn plane_crossings(camera_height: f64, height: f64, order: Order) -> u32 {
+fn plane_crossings(camera_height: f64, height: f64, order: Order) -> u32 {
     let n = u32::from(order.number());
     let across = (height < 0.0) != (camera_height < 0.0);
     if across == n.is_multiple_of(2) { n - 1 } else { n }

@@ -18,7 +18,7 @@ use crate::render::models::hiding::seen_from;
 use crate::render::models::outside::{AGAINST, ALONG, OPEN, sides};
 
 /// Side of a layer of the texture array, in pixels; images of other sizes are resampled.
-pub const TEXTURE_SIZE: u32 = 1024;
+const TEXTURE_SIZE: u32 = 1024;
 /// Layers of the texture array: a scene has few images.
 const TEXTURE_LAYERS: u32 = 4;
 

@@ -7,9 +7,9 @@ use crate::spacetime::light;
 /// Nodes. The cubic of Hermite between them is right to 1e-6 rad (a test holds it).
 pub const NODES: usize = 256;
 /// End of the axis s, where the gap to the edge of the shadow is e⁻¹² of ψ_shadow; `SKY_S` of WGSL.
-pub const S_END: f64 = 12.0;
+const S_END: f64 = 12.0;
 /// End of the axis Φ, three half turns; `SKY_PHI` of WGSL.
-pub const PHI_END: f64 = 3.0 * PI;
+const PHI_END: f64 = 3.0 * PI;
 
 /// Rows (Φ(s), dΦ/ds, s(Φ), ds/dΦ) for a camera at radius `l` (in r_s).
 pub fn sky_table(l: f64) -> Vec<[f32; 4]> {
@@ -56,7 +56,7 @@ pub fn straight_sky_table() -> Vec<[f32; 4]> {
 }
 
 /// The Rust twin of `hermite` in WGSL: value and slope at `x` in [0, 1] of the cubic through (0, a), (1, b) with slopes da, db.
-pub fn hermite(a: f32, da: f32, b: f32, db: f32, x: f32) -> [f32; 2] {
+fn hermite(a: f32, da: f32, b: f32, db: f32, x: f32) -> [f32; 2] {
     let c2 = 3.0 * (b - a) - 2.0 * da - db;
     let c3 = 2.0 * (a - b) + da + db;
     [a + x * (da + x * (c2 + x * c3)), da + x * (2.0 * c2 + 3.0 * x * c3)]

@@ -11,11 +11,11 @@ pub const PAIR_ENERGY: f64 = 0.035;
 /// R(E) = RANGE · E^RANGE_POWER in g cm⁻², E in keV.
 pub const RANGE: f64 = 4.57e-6;
 /// See [`RANGE`].
-pub const RANGE_POWER: f64 = 1.75;
+const RANGE_POWER: f64 = 1.75;
 /// Energies are held to this range, keV: below, the range formula has no meaning; above, electrons pass the lowest height asked.
 pub const ENERGIES: [f64; 2] = [0.05, 500.0];
 /// The flattest path, as the cosine of the pitch angle: mirrored or flatter electrons never arrive.
-pub const LEAST_SLOPE: f64 = 0.05;
+const LEAST_SLOPE: f64 = 0.05;
 
 /// The range in air of an electron of `energy` keV, in g cm⁻².
 pub fn range(energy: f64) -> f64 {

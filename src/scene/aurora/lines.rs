@@ -40,10 +40,10 @@ impl Line {
 }
 
 /// Radiative rates of O(¹S), s⁻¹: 557.7 nm, and 297.2 nm beside it.
-pub const GREEN_RATE: f64 = 1.06;
+const GREEN_RATE: f64 = 1.06;
 const GREEN_OTHER: f64 = 0.045;
 /// Radiative rates of O(¹D), s⁻¹: 630.0 and 636.4 nm.
-pub const RED_RATE: f64 = 0.00585;
+const RED_RATE: f64 = 0.00585;
 const RED_OTHER: f64 = 0.00185;
 /// N₂⁺(B) per ionisation of N₂, and the parts of it that shine at 427.8 nm, the (0,1) band, and at 391.4 nm, the (0,0) band.
 const ION_BRANCH: f64 = 0.11;
@@ -83,12 +83,12 @@ fn rate((k, kelvin): (f64, f64), temperature: f64) -> f64 {
 }
 
 /// Losses of O(¹S) by collisions at this air, s⁻¹.
-pub fn green_quenching(air: &Air) -> f64 {
+fn green_quenching(air: &Air) -> f64 {
     GREEN_BY_O * air.o + rate(GREEN_BY_O2, air.temperature) * air.o2
 }
 
 /// Losses of O(¹D) by collisions at this air, s⁻¹. Electrons, below a hundredth of it, are left out.
-pub fn red_quenching(air: &Air) -> f64 {
+fn red_quenching(air: &Air) -> f64 {
     rate(RED_BY_N2, air.temperature) * air.n2 + rate(RED_BY_O2, air.temperature) * air.o2 + RED_BY_O * air.o
 }
 
@@ -100,7 +100,7 @@ pub fn shares(air: &Air) -> [f64; 3] {
 }
 
 /// Excited states (for the molecules: photons) made per ion pair, before quenching, by line.
-pub fn production(air: &Air) -> [f64; 4] {
+fn production(air: &Air) -> [f64; 4] {
     let [n2, o2, o] = shares(air);
     let transfer = TRIPLET_TO_O * air.o;
     let to_oxygen = TRIPLET_YIELD * transfer / (transfer + TRIPLET_RATE + TRIPLET_BY_O2 * air.o2);
@@ -113,7 +113,7 @@ pub fn production(air: &Air) -> [f64; 4] {
 }
 
 /// The part of each excited state that ends as a photon of its line: branching and quenching.
-pub fn survival(air: &Air) -> [f64; 4] {
+fn survival(air: &Air) -> [f64; 4] {
     [GREEN_RATE / (GREEN_RATE + GREEN_OTHER + green_quenching(air)), 1.0, RED_RATE / (RED_RATE + RED_OTHER + red_quenching(air)), 1.0]
 }
 

@@ -54,9 +54,9 @@ pub struct Quantiles {
 }
 
 /// Heights of [`Quantiles::delays`], km.
-pub const DELAY_HEIGHTS: [f64; 2] = [80.0, 500.0];
+const DELAY_HEIGHTS: [f64; 2] = [80.0, 500.0];
 /// Entries of [`Quantiles::delays`].
-pub const DELAYS: usize = 64;
+const DELAYS: usize = 64;
 
 /// Energy flux over its mean of a row.
 pub fn flux(row: usize) -> f64 {

@@ -36,9 +36,9 @@ use crate::spacetime::orbit::static_momentum;
 use crate::user_file::short;
 
 /// The nearest a camera may start to the singularity, in r_s.
-pub const MIN_CAMERA_RADIUS: f64 = 0.02;
+const MIN_CAMERA_RADIUS: f64 = 0.02;
 /// The farthest a camera may start, in r_s (the tables reach as far).
-pub const MAX_CAMERA_RADIUS: f64 = 1e4;
+const MAX_CAMERA_RADIUS: f64 = 1e4;
 
 /// From where a scene is seen.
 #[derive(Debug, Clone, PartialEq)]

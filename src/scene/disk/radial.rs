@@ -51,7 +51,7 @@ pub fn page_thorne_flux(x: f64) -> f64 {
 }
 
 /// The greatest value of [`page_thorne_flux`], at x = 9.550928.
-pub const PEAK_FLUX: f64 = 1.367_811e-5;
+const PEAK_FLUX: f64 = 1.367_811e-5;
 
 /// Temperature, motion and density over the radius.
 #[derive(Clone, Debug)]

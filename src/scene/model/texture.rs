@@ -9,7 +9,7 @@ use super::Image;
 use crate::scene::aurora::random;
 
 /// Width and height of the galaxy, in pixels.
-pub const GALAXY_SIZE: u32 = 1024;
+const GALAXY_SIZE: u32 = 1024;
 
 /// A chequer of 24 × 12 fields in ivory and deep blue, 768 × 384 pixels: square fields on the equator of a sphere.
 pub fn checker() -> Arc<Image> {

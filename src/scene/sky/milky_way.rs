@@ -150,7 +150,7 @@ pub fn direction_to_uv(direction: Vec3) -> Vec2 {
 
 /// Temperatures, in K, of the black bodies that have the colours of the faintest and of the brightest parts: the outer parts are as white
 /// as young stars, the bulge is yellow.
-pub const TEMPERATURES: [f64; 2] = [7200.0, 4700.0];
+const TEMPERATURES: [f64; 2] = [7200.0, 4700.0];
 
 /// Linear RGB of luminance 1 of the faintest and of the brightest parts.
 pub fn tints() -> [[f32; 3]; 2] {

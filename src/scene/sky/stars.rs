@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3};
 use crate::game_files::{self, GameFile};
 
 /// The B−V taken for a star without one: that of the Sun.
-pub const DEFAULT_B_MINUS_V: f32 = 0.65;
+const DEFAULT_B_MINUS_V: f32 = 0.65;
 /// The scene's unit of radiance (a white surface in full light) holds this part of one star of magnitude 0 per steradian: bright enough
 /// that stars down to magnitude 6 show beside a lit ship.
 pub const SKY_UNIT: f32 = 4e-4;

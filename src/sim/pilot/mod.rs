@@ -135,7 +135,7 @@ type Piloted<'a> = (
 type ByPilot = (Without<Ended>, Without<Manual>, Without<Beginner>, Without<Jerky>);
 
 /// Every pilot, in scene order, sets the controls of its ship for the coming step.
-pub fn fly_by_pilot(
+fn fly_by_pilot(
     clock: Res<Clock>,
     (fleet, skills, rules): (Res<Fleet>, Res<Skills>, Res<ChaseRules>),
     mission: Option<Res<ActiveMission>>,

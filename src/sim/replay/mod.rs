@@ -384,7 +384,7 @@ impl Plugin for PlaybackPlugin {
 }
 
 /// The hands of this step.
-pub fn play_back(clock: Res<Clock>, mut playback: ResMut<Playback>, mut hands: ResMut<Hands>) {
+fn play_back(clock: Res<Clock>, mut playback: ResMut<Playback>, mut hands: ResMut<Hands>) {
     while let Some(record) = playback.records.get(playback.next).filter(|record| record.tick <= clock.tick).copied() {
         *hands = record.hands;
         playback.next += 1;

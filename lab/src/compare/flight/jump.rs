@@ -7,7 +7,7 @@ use crate::compare::Shown;
 /// An image's size may change by so many pixels from one frame to the next ...
 pub const PIXELS: f64 = 6.0;
 /// ... and by this part of the larger of both sizes.
-pub const PART: f64 = 0.3;
+const PART: f64 = 0.3;
 /// And by so many standard deviations of what covers pixels in part.
 const SIGMA: f64 = 3.0;
 

@@ -53,7 +53,7 @@ const GROUND_PIXELS: f64 = 55.0;
 /// Collisions of 35 eV, as kR, per erg cm⁻² s⁻¹: 6.2415e8 keV per erg, 1e9 photons cm⁻² s⁻¹ in a kR.
 const KILO_COLLISIONS: f64 = 6.2415e8 / 0.035 / 1e9;
 /// Room for strokes: more are not drawn in one order.
-pub const MOST_STROKES: usize = 1 << 20;
+const MOST_STROKES: usize = 1 << 20;
 
 /// What a frame shows of the aurora.
 #[derive(Clone, Debug, Default)]

@@ -43,7 +43,7 @@ pub const TOP_SPEED: f64 = 4.0;
 const SIGMA: f64 = 1.0;
 /// Least thickness of a curtain's charge, in km (one standard deviation): with it curls are about 40 km apart; folds in the sky are 10 to
 /// 50 km wide.
-pub const THICKNESS: f64 = 6.0;
+const THICKNESS: f64 = 6.0;
 /// Share of a renewal time that a surge takes; below, by which power of e a surge brings nodes nearer to their rest.
 const SURGE: f64 = 0.4;
 const SURGES_TO: f64 = 3.0;
