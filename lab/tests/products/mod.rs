@@ -214,15 +214,8 @@ fn durations_are_short() {
 #[test]
 fn drawings_are_those_of_their_numbers() {
     let root = root();
-    for (chart, home, drawings) in [
-        ("projection", "docs", &["projection.svg"][..]),
-        ("disk", "docs/disk", &["disk.svg"]),
-        ("aurora", "docs", &["aurora.svg"]),
-        ("bvh", "docs", &["bvh.svg"]),
-        ("trace", "docs", &["trace.svg"]),
-        ("flight", "docs", &["flight.svg"]),
-        ("tessellation", "docs", &["tessellation.svg"]),
-    ] {
+    for chart in ["projection", "disk", "aurora", "bvh", "trace", "flight", "tessellation"] {
+        let home = if chart == "disk" { "docs/disk" } else { "docs" };
         let folder = Folder::new();
         for file in std::fs::read_dir(root.join(home)).unwrap().map(|entry| entry.unwrap().path()) {
             if file.extension().is_some_and(|extension| extension == "csv") {
@@ -236,9 +229,8 @@ fn drawings_are_those_of_their_numbers() {
             .unwrap();
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success() && !said.contains("hard to read"), "{chart}: {said}");
-        for drawing in drawings {
-            let [now, then] = [folder.path(), &root.join(home)].map(|folder| std::fs::read_to_string(folder.join(drawing)).unwrap());
-            assert!(now == then, "{home}/{drawing}: lab/run chart {chart} --redraw -o {home}");
-        }
+        let drawing = format!("{chart}.svg");
+        let [now, then] = [folder.path(), &root.join(home)].map(|folder| std::fs::read_to_string(folder.join(&drawing)).unwrap());
+        assert!(now == then, "{home}/{drawing}: lab/run chart {chart} --redraw -o {home}");
     }
 }
