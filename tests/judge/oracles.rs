@@ -8,6 +8,8 @@ use glam::{DVec2, DVec3};
 use lensrunner::judge::shoot::{shoot, shoot_sky};
 use lensrunner::judge::{Branch, End, Fate, Ray, Stop, fate};
 
+use crate::spacetime::oracles::{DEFLECTIONS, FLASHES, JOINED, SHADOWS_FALLING, SHADOWS_HOVERING};
+
 /// Rounding rules.
 const FINE: f64 = 1e-17;
 
@@ -62,19 +64,13 @@ fn close(found: f64, expected: f64, tolerance: f64) {
 
 #[test]
 fn deflection_after_darwin() {
-    // Closest approach P and impact parameter b in units of M = r_s/2, and the deflection; Darwin 1959, computed to 25 digits.
-    #[rustfmt::skip]
-    let by_approach: [(f64, f64); 12] = [
-        (3.001, 15.2079293881952), (3.01, 10.6107882809626), (3.1, 6.08631868500775), (3.5, 3.20612274197976), (4.0, 2.18410018772756),
-        (5.0, 1.37674058215519), (6.0, 1.01487543221757), (8.0, 0.669154826815673), (10.0, 0.500235656607792), (20.0, 0.221876104338905),
-        (100.0, 0.0407956128928033), (1000.0, 0.00400779811735871),
-    ];
-    for (approach, expected) in by_approach {
+    for (approach, expected) in DEFLECTIONS {
         let b = (approach.powi(3) / (approach - 2.0)).sqrt() / 2.0;
         // Rounding of b near b_c is amplified by dα/db = 1/(b − b_c).
         let amplified = 2e-15 / (b - 1.5 * 3f64.sqrt());
         close(deflection(b), expected, 1e-11 + amplified);
     }
+    // Impact parameter b in the same units.
     #[rustfmt::skip]
     let by_impact: [(f64, f64); 10] = [
         (5.2, 6.8103719566635), (5.25, 4.19479970823466), (5.5, 2.55302018234534), (6.0, 1.71938831023017), (8.0, 0.858730018079095),
@@ -104,17 +100,11 @@ fn deflection_near_the_critical_ray() {
 
 #[test]
 fn shadow_edge_of_a_falling_camera() {
-    // Half opening angle of the shadow from inwards, degrees, for a camera falling from rest at infinity, also below the horizon.
-    #[rustfmt::skip]
-    let rows = [
-        (10.0, 10.3101093215), (3.0, 24.2034283393), (2.0, 30.5062057552), (1.5, 35.2643896828), (1.1, 40.4977984709), (1.0, 42.1034488707),
-        (0.9, 43.8677205331), (0.5, 53.2702658035), (0.25, 62.7927334184), (0.1, 72.2638133089), (0.01, 84.282883104),
-    ];
     let captured = |l: f64, degrees: f64| {
         let (sine, cosine) = degrees.to_radians().sin_cos();
         fate(DVec3::Y * l, DVec3::new(sine, -cosine, 0.0), FINE) == Fate::Captured
     };
-    for (l, edge) in rows {
+    for (l, edge) in SHADOWS_FALLING {
         assert!(captured(l, edge - 1e-9), "L = {l}");
         assert!(!captured(l, edge + 1e-9), "L = {l}");
         assert!(captured(l, 0.0) && !captured(l, 180.0));
@@ -123,18 +113,11 @@ fn shadow_edge_of_a_falling_camera() {
 
 #[test]
 fn shadow_edge_of_a_hovering_camera() {
-    // Synge 1966, degrees from inwards in the static frame.
-    #[rustfmt::skip]
-    let rows = [
-        (1.005, 169.493769033), (1.01, 165.169602398), (1.05, 147.319816053), (1.1, 134.591038022), (1.25, 111.640506001), (1.5, 90.0),
-        (2.0, 66.7162682789), (3.0, 45.0), (5.0, 27.6945614508), (10.0, 14.2690273279), (20.0, 7.27400488118), (100.0, 1.48129138665),
-        (1000.0, 0.148784520962),
-    ];
     let captured = |l: f64, degrees: f64| {
         let psi = rain_angle(PI - degrees.to_radians(), l);
         fate(DVec3::X * l, DVec3::new(psi.cos(), psi.sin(), 0.0), FINE) == Fate::Captured
     };
-    for (l, edge) in rows {
+    for (l, edge) in SHADOWS_HOVERING {
         assert!(captured(l, edge - 2e-9), "L = {l}");
         assert!(!captured(l, edge + 2e-9), "L = {l}");
     }
@@ -142,18 +125,7 @@ fn shadow_edge_of_a_hovering_camera() {
 
 #[test]
 fn points_seen_by_a_hovering_camera() {
-    // r, Φ in degrees, L: ψ static, Schwarzschild light time.
-    #[rustfmt::skip]
-    let rows = [
-        (20.0, 90.0, 10.0, 1.9241487211568, 23.6791126236), (20.0, 180.0, 10.0, 2.6989684589193, 34.90536040538),
-        (20.0, 270.0, 10.0, 2.8647264192865, 40.30302376183), (20.0, 350.0, 10.0, 2.8863580836286, 44.13343428184),
-        (5.0, 30.0, 10.0, 2.7329544447192, 7.031459714706), (5.0, 180.0, 10.0, 2.8021629964806, 19.5781569339),
-        (3.0, 60.0, 10.0, 2.8268642839852, 10.49706857298), (1.3, 135.0, 10.0, 2.9235816212017, 15.39232460882),
-        (1000.0, 180.0, 3.0, 2.0624122552072, 1011.95842565), (10.0, 120.0, 1.5, 1.1459402791648, 14.44970603008),
-        (3.0, 100.0, 1.2, 0.83229288501576, 6.444934658367), (10.0, 60.0, 1.05, 0.24058577096715, 14.76415055969),
-        (10.5, 2.0, 10.0, 0.61271374219736, 0.6698901595236), (9.5, 2.0, 10.0, 2.584452590807, 0.6628743254735),
-    ];
-    for (r, degrees, l, psi, time) in rows {
+    for (r, degrees, l, psi, _, time) in JOINED {
         let swept = f64::to_radians(degrees);
         let (order, phi) = if swept > PI { (2, TAU - swept) } else { (1, swept) };
         let seen = shoot(r, phi, l, order, Branch::Plus, FINE).unwrap();
@@ -165,13 +137,7 @@ fn points_seen_by_a_hovering_camera() {
 
 #[test]
 fn a_camera_sees_its_own_flash_as_rings() {
-    // L = 10: static angle from inwards in degrees, closest approach, round trip in T (the clock offsets cancel).
-    #[rustfmt::skip]
-    let rows = [
-        (1, 14.526704331387, 1.68794129994, 34.0266545845), (2, 14.269493478688, 1.50696994784, 50.3960220724),
-        (3, 14.269028198327, 1.50029941303, 66.7202993045),
-    ];
-    for (turns, degrees, closest, trip) in rows {
+    for (turns, (degrees, closest, trip)) in (1..).zip(FLASHES) {
         // A flash at the camera's own place, `turns` times around: order 2·turns with φ = 0.
         let seen = shoot(10.0, 0.0, 10.0, 2 * turns, Branch::Plus, FINE).unwrap();
         close(180.0 - static_angle(seen.psi_rain, 10.0).to_degrees(), degrees, 1e-10);

@@ -3,3 +3,4 @@
 mod light;
 mod light_against_judge;
 mod matter;
+pub mod oracles;
