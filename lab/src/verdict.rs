@@ -1,6 +1,6 @@
 //! `compare` on the command line: what it is asked for, and its exit codes.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;

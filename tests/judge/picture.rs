@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::{DQuat, DVec3};
-use lensrunner::judge::picture::{Motion, Pose, Seen, Thing, World, Worldline};
+use lensrunner::judge::picture::{Motion, Pose, Seen, World, Worldline};
 use lensrunner::judge::trace::PixelCamera;
 use lensrunner::spacetime::Observer;
 use rand::{RngExt, SeedableRng, rngs::StdRng};

@@ -250,7 +250,7 @@ fn a_hot_prop_glows_as_the_judge_says() {
         let scene = scene::Scene::from_toml("hot.toml".as_ref(), &format!("{SCENE}{surface}")).unwrap();
         let mut config = GameConfig::default();
         (config.render.doppler, config.render.beaming) = (doppler, beaming);
-        let stage = lensrunner::render::stage::Stage::new(&mut renderer, &scene, &config);
+        let mut stage = lensrunner::render::stage::Stage::new(&mut renderer, &scene, &config);
         let frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &Settings { doppler, beaming, ..settings() });
         let drawn = renderer.picture(&frame, true).unwrap();
         assert_eq!(drawn.layers[middle][0], 1.0, "the prop is not in the middle of the picture");

@@ -89,7 +89,9 @@ mod tests {
         let turned = DQuat::from_rotation_y(0.5);
         let soon = follower.follow(turned, 0.05, false).angle_between(turned);
         assert!(soon > 0.1 && soon < 0.45, "{soon}");
-        (0..60).for_each(|_| follower.follow(turned, 0.05, false));
+        for _ in 0..60 {
+            follower.follow(turned, 0.05, false);
+        }
         assert!(follower.follow(turned, 0.05, false).angle_between(turned) < 1e-6);
     }
 

@@ -31,7 +31,7 @@ use crate::play::input::bindings::Bindings;
 use crate::play::input::button::Device;
 use crate::play::menus::entries::{Menu, Page};
 use crate::play::menus::navigate::{FileConfig, navigate};
-use crate::play::menus::screens::{MenuAction, Screen};
+use crate::play::menus::screens::Screen;
 use crate::play::missions::{Catalogue, LastFlight};
 use crate::play::player_state::PlayerState;
 use crate::play::records::Records;

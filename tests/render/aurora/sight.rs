@@ -2,7 +2,6 @@
 
 use glam::{DQuat, DVec3};
 use lensrunner::lensing::Slice;
-use lensrunner::render::Renderer;
 use lensrunner::render::aurora::{AuroraAnimation, AuroraFrame};
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::instances::View;
