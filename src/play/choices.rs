@@ -147,12 +147,7 @@ mod tests {
         let file = file("damaged");
         std::fs::create_dir_all(file.parent().expect("a folder")).expect("a folder");
         let wrong = [
-            "[video",
-            "[video]\nfov = \"wide\"\n",
-            "[video]\nfov = 1e9\n",
-            "[video]\nfox = 1\n",
-            "[ship]\nthrust = 1\n",
-            "video = 1",
+            "[video", "[video]\nfov = \"wide\"\n", "[video]\nfov = 1e9\n", "[video]\nfox = 1\n", "[ship]\nthrust = 1\n", "video = 1",
             "\u{0}",
         ];
         for (n, text) in wrong.iter().enumerate() {

@@ -130,12 +130,7 @@ mod tests {
         assert_eq!("ship.bolts=3,5".parse::<Axis>().expect("a list").values, [Value::Integer(3), Value::Integer(5)]);
         assert_eq!("assist.enabled=true,false".parse::<Axis>().expect("switches").values.len(), 2);
         for wrong in [
-            "enemy.thrust",
-            "enemy.speed=1",
-            "enemy.thrust=a",
-            "enemy.thrust=1:2",
-            "enemy.thrust=0:99:3",
-            "ship.bolts=1.5",
+            "enemy.thrust", "enemy.speed=1", "enemy.thrust=a", "enemy.thrust=1:2", "enemy.thrust=0:99:3", "ship.bolts=1.5",
             "enemy.thrust=0:1:1",
         ] {
             assert!(wrong.parse::<Axis>().is_err(), "{wrong}");

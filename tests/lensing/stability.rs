@@ -252,16 +252,8 @@ fn elementary_functions_are_the_librarys() {
 /// Every number of the ray is one.
 pub fn finite(ray: &LensRay) -> bool {
     let numbers = [
-        ray.cos_psi,
-        ray.sin_psi,
-        ray.delay,
-        ray.frequency,
-        ray.emission_radial,
-        ray.emission_tangential,
-        ray.emission_frequency,
-        ray.slope,
-        ray.emission_slope,
-        ray.energy,
+        ray.cos_psi, ray.sin_psi, ray.delay, ray.frequency, ray.emission_radial, ray.emission_tangential, ray.emission_frequency,
+        ray.slope, ray.emission_slope, ray.energy,
     ];
     numbers.iter().all(|v| v.is_finite())
 }

@@ -13,29 +13,8 @@ use lensrunner::scene;
 /// `within`, that nothing was judged, or all that is beyond the limits, and holds for the whole picture, as do wrong orders, holes and lit
 /// pixels.
 pub const COLUMNS: [&str; 23] = [
-    "scene",
-    "at",
-    "size",
-    "samples",
-    "object",
-    "order",
-    "pixels",
-    "mean",
-    "most",
-    "max",
-    "apart",
-    "mismatched",
-    "percent",
-    "inside",
-    "thin_judge",
-    "thin_shown",
-    "wrong_order",
-    "holes",
-    "lit",
-    "flip",
-    "verdict",
-    "commit",
-    "command",
+    "scene", "at", "size", "samples", "object", "order", "pixels", "mean", "most", "max", "apart", "mismatched", "percent", "inside",
+    "thin_judge", "thin_shown", "wrong_order", "holes", "lit", "flip", "verdict", "commit", "command",
 ];
 
 /// When scenes that move are looked at, besides T = 0: in the chase the ships turn and thrust; in the plunge the camera nears the horizon

@@ -21,17 +21,7 @@ const LEAST_PEAK: f32 = 0.01;
 pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::measured(
         &[
-            "contestant",
-            "family",
-            "step",
-            "situation",
-            "frame_ms",
-            "wall_ms",
-            "disk_ms",
-            "arcs_ms",
-            "mesh_ms",
-            "draw_ms",
-            "psnr_db",
+            "contestant", "family", "step", "situation", "frame_ms", "wall_ms", "disk_ms", "arcs_ms", "mesh_ms", "draw_ms", "psnr_db",
             "flip",
         ],
         bench.adapter(),
@@ -71,15 +61,7 @@ pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], bench: &m
 /// and the mean and worst error.
 pub(super) fn summary(chase: &Sheet) -> Sheet {
     let mut sheet = Sheet::new(&[
-        "contestant",
-        "mean_ms",
-        "worst_ms",
-        "worst_to_mean_fps",
-        "worst_in",
-        "disk_mean_ms",
-        "psnr_db",
-        "flip",
-        "worst_flip",
+        "contestant", "mean_ms", "worst_ms", "worst_to_mean_fps", "worst_in", "disk_mean_ms", "psnr_db", "flip", "worst_flip",
     ]);
     sheet.notes.clone_from(&chase.notes);
     for name in chase.distinct("contestant") {

@@ -30,18 +30,8 @@ pub struct DriversRequest {
 
 /// The scenes that are drawn.
 const SCENES: [&str; 12] = [
-    "ring",
-    "parade",
-    "galaxy-axis-vertex",
-    "disk",
-    "disk-inner",
-    "disk-80",
-    "chase",
-    "plunge",
-    "aurora-orbit",
-    "aurora-below",
-    "aurora-lensed",
-    "02-first-pursuit",
+    "ring", "parade", "galaxy-axis-vertex", "disk", "disk-inner", "disk-80", "chase", "plunge", "aurora-orbit", "aurora-below",
+    "aurora-lensed", "02-first-pursuit",
 ];
 /// Width and height in pixels.
 const SIZE: [u32; 2] = [640, 360];

@@ -45,25 +45,8 @@ fn answers(race: &mut Race, method: Method, rows: &[Row]) -> [Vec<Option<[f64; 2
 }
 
 const COLUMNS: &[&str] = &[
-    "method",
-    "family",
-    "order",
-    "rows",
-    "answered",
-    "missing",
-    "false",
-    "max_degrees",
-    "p999_degrees",
-    "rms_degrees",
-    "worst_r",
-    "worst_phi",
-    "worst_L",
-    "delay_over_allowed",
-    "delay_worst_r",
-    "delay_worst_phi",
-    "delay_worst_L",
-    "nanoseconds",
-    "bytes",
+    "method", "family", "order", "rows", "answered", "missing", "false", "max_degrees", "p999_degrees", "rms_degrees", "worst_r",
+    "worst_phi", "worst_L", "delay_over_allowed", "delay_worst_r", "delay_worst_phi", "delay_worst_L", "nanoseconds", "bytes",
 ];
 
 /// One row for each method and order, on the very `rows` of the processor, whose truth in each order is `truths`; timed on points of the

@@ -97,28 +97,9 @@ fn truths(rows: &[Row]) -> Vec<Vec<Truth>> {
 }
 
 const COLUMNS: &[&str] = &[
-    "method",
-    "family",
-    "order",
-    "rows",
-    "answered",
-    "missing",
-    "false",
-    "max_degrees",
-    "p999_degrees",
-    "rms_degrees",
-    "worst_r",
-    "worst_phi",
-    "worst_L",
-    "delay_max",
-    "delay_p999",
-    "delay_over_allowed",
-    "delay_worst_r",
-    "delay_worst_phi",
-    "delay_worst_L",
-    "nanoseconds",
-    "frame_microseconds",
-    "bytes",
+    "method", "family", "order", "rows", "answered", "missing", "false", "max_degrees", "p999_degrees", "rms_degrees", "worst_r",
+    "worst_phi", "worst_L", "delay_max", "delay_p999", "delay_over_allowed", "delay_worst_r", "delay_worst_phi", "delay_worst_L",
+    "nanoseconds", "frame_microseconds", "bytes",
 ];
 
 fn measure(request: &ProjectionRequest) -> Result<Sheet, ChartError> {

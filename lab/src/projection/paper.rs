@@ -53,19 +53,8 @@ const PRINTED: [(Scheme, usize, u8, bool, [f64; 2]); 24] = [
 pub fn measure(request: &ProjectionRequest) -> Sheet {
     let mut sheet = Sheet::measured(
         &[
-            "mesh",
-            "nodes",
-            "order",
-            "half",
-            "printed_max",
-            "printed_deviation",
-            "points",
-            "max",
-            "p999",
-            "deviation",
-            "worst_r",
-            "worst_phi",
-            "worst_L",
+            "mesh", "nodes", "order", "half", "printed_max", "printed_deviation", "points", "max", "p999", "deviation", "worst_r",
+            "worst_phi", "worst_L",
         ],
         "",
     );

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::Finding;
 use crate::bvh::others::{Obvhs, Svenstaro};
-use crate::straight::scenes::{Triangle, bunny};
+use crate::straight::scenes::{Triangle, bunny::ball};
 use crate::straight::{Hit, Packets, Ray, Wide};
 
 /// Balls of twenty times the square of the frequency triangles: where, and how large.
@@ -14,10 +14,6 @@ const PLACES: [(&str, usize, [f32; 3], f32); 4] = [
     ("the same of 0.3, 33 from the origin", 8, [30.0, -7.0, 11.0], 0.3),
     ("the same of 10⁴", 8, [0.0; 3], 1e4),
 ];
-
-fn ball(frequency: usize, centre: Vec3, radius: f32) -> Vec<Triangle> {
-    bunny::geodesic(frequency).into_iter().map(|t| t.map(|p| (centre + p.as_vec3() * radius).to_array())).collect()
-}
 
 /// Through every corner and the middle of every edge, from three radii away through the middle, and from beside it.
 fn rays(triangles: &[Triangle], centre: Vec3) -> Vec<Ray> {

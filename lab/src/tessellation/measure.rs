@@ -32,19 +32,8 @@ pub const OWN: f64 = 0.5;
 const PASSES: [&str; 7] = ["vertices", "edges", "triangles", "refine", "mesh", "draw", "thin"];
 
 const COLUMNS: [&str; 13] = [
-    "scene",
-    "way",
-    "bound_px",
-    "vertices",
-    "passes_ms",
-    "time_over_ours",
-    "mean_px",
-    "p99_px",
-    "max_px",
-    "measured",
-    "differ_percent",
-    "failed",
-    "note",
+    "scene", "way", "bound_px", "vertices", "passes_ms", "time_over_ours", "mean_px", "p99_px", "max_px", "measured", "differ_percent",
+    "failed", "note",
 ];
 
 /// A row for each scene and way.

@@ -1,7 +1,7 @@
 //! What breaks tracers of straight rays: one test for each complaint that users of other tracers have made.
 
 use glam::Vec3;
-use lensrunner_lab::straight::scenes::{Triangle, bunny, spd};
+use lensrunner_lab::straight::scenes::{Triangle, bunny::ball, spd};
 use lensrunner_lab::straight::{Hit, Mesh, Packets, Ray, Settings, Wide};
 use proptest::prelude::*;
 use rand::rngs::StdRng;
@@ -100,11 +100,6 @@ fn rays_that_run_in_the_faces_of_boxes() {
         let expected = exact(&triangles, ray).map(|(t, det, i)| (t as f32 / det as f32, i));
         assert_eq!(hit.is_hit().then_some((hit.t, hit.triangle)), expected, "{ray:?}");
     }
-}
-
-/// A closed mesh with many triangles at each corner.
-fn ball(frequency: usize, centre: Vec3, radius: f32) -> Vec<Triangle> {
-    bunny::geodesic(frequency).into_iter().map(|t| t.map(|p| (centre + p.as_vec3() * radius).to_array())).collect()
 }
 
 /// Through every corner and the middle of every edge, from inside and from outside.

@@ -15,11 +15,18 @@ use lensrunner::render::settings::Settings;
 use lensrunner::scene::GameConfig;
 use lensrunner::spacetime::Observer;
 
+use crate::render_support::settings;
+
 /// The disk of a configuration that is the game's but for `change`.
 fn disk_with(change: impl FnOnce(&mut GameConfig)) -> Disk {
     let mut config = GameConfig::default();
     change(&mut config);
     Disk::new(config.disk.clone(), &config)
+}
+
+/// So many image orders. With a budget of many pixels there is no third one unasked.
+fn of_orders(orders: u32) -> Settings {
+    Settings { orders, pixel_error: 100.0, ..settings() }
 }
 
 /// Linear light of the renderer's disk alone.

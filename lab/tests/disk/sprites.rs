@@ -3,14 +3,13 @@
 use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
 use lensrunner::render::gpu::shaders::Pass;
-use lensrunner::render::settings::Settings;
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::sprites::Sprites;
 use lensrunner::spacetime::Observer;
 use lensrunner_lab::disk;
 
-use super::{disk_with, green, shown};
-use crate::render_support::{camera, renderer, settings};
+use super::{disk_with, green, of_orders, shown};
+use crate::render_support::{camera, renderer};
 use crate::twin::run;
 
 fn with(representation: &str, change: impl Fn(&mut GameConfig)) -> Disk {
@@ -20,20 +19,14 @@ fn with(representation: &str, change: impl Fn(&mut GameConfig)) -> Disk {
     })
 }
 
-/// The scene `disk-80` from 27 r_s.
-fn from_80_degrees() -> Observer {
-    camera(27.0, 80.0, 60f64.to_radians())
-}
-
-/// Linear light of so many image orders, and no third one unasked.
+/// Linear light of so many image orders.
 fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Observer, orders: u32) -> Vec<[f32; 3]> {
     drawn_at(renderer, disk, camera, 100.0, orders)
 }
 
 fn drawn_at(renderer: &mut Renderer, disk: &Disk, camera: Observer, time: f64, orders: u32) -> Vec<[f32; 3]> {
     renderer.set_disk(Some(disk.clone()));
-    let settings = Settings { orders, pixel_error: 100.0, ..settings() };
-    shown(renderer, camera, time, settings)
+    shown(renderer, camera, time, of_orders(orders))
 }
 
 /// Where the front of an opaque disk lies before its second image it hides it: there the light is that of arcs, and the same whether the
@@ -80,7 +73,7 @@ fn the_front_image_hides_the_ghost() {
 #[test]
 fn sprites_have_the_streaks_of_arcs() {
     let size = [320, 180];
-    let camera = from_80_degrees();
+    let camera = camera(27.0, 80.0, 60f64.to_radians());
     let mut renderer = renderer(size);
     let mut streaks = |representation: &str| -> Vec<f64> {
         let [with_streaks, without] = [0.6, 0.0].map(|contrast| {
@@ -141,9 +134,8 @@ fn sprites_without_streaks_have_their_light() {
     }
 }
 
-/// The third image is far thinner than a pixel, and yet it has its light: from one spot to the next its
-/// rings part by a few roundings of f32 alone. At one time alone it is chance
-/// which streak of the second image is before it.
+/// The third image is far thinner than a pixel, and yet it has its light: from one spot to the next its rings part by a few
+/// roundings of f32 alone. At one time alone it is chance which streak of the second image is before it.
 #[test]
 fn the_third_image_of_sprites_has_its_light() {
     let size = [160, 160];

@@ -7,7 +7,7 @@ use lensrunner::render::stage::static_camera;
 use lensrunner::spacetime::Observer;
 use lensrunner_lab::disk;
 
-use super::{disk_with, green, shown};
+use super::{disk_with, green, of_orders, shown};
 use crate::render_support::{camera, renderer, settings};
 
 /// T, in r_s/c.
@@ -55,10 +55,8 @@ fn light_over_exact(place: &Place, turbulence: Option<f64>, times: &[f64]) -> [f
     renderer.set_disk(Some(disk.clone()));
     let [[left, top], [width, height]] = part;
     let sums = [1, 2, 3].map(|orders| {
-        // A budget of many pixels: no third image unasked.
-        let settings = Settings { orders, pixel_error: 100.0, ..settings() };
         let at = |time: f64, renderer: &mut Renderer| {
-            let linear = shown(renderer, camera, time, settings);
+            let linear = shown(renderer, camera, time, of_orders(orders));
             let rows = linear.chunks_exact(size[0] as usize).skip(top as usize).take(height as usize);
             let got: f64 = rows.flat_map(|row| &row[left as usize..(left + width) as usize]).map(|p| f64::from(p[1])).sum();
             let want: f64 = green(&disk::part(&disk.gas, &camera, size, part, time, orders, samples));
@@ -139,7 +137,7 @@ fn a_shift_of_colour_alone_leaves_the_light_of_thin_images() {
     renderer.set_disk(Some(disk_with(|config| config.disk.turbulence = 0.0)));
     let mut light = |doppler: bool, beaming: bool| {
         let of = |orders: u32, renderer: &mut Renderer| {
-            let settings = Settings { orders, pixel_error: 100.0, doppler, beaming, ..settings() };
+            let settings = Settings { doppler, beaming, ..of_orders(orders) };
             let luminance = |p: &[f32; 3]| f64::from(0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]);
             shown(renderer, far(30.0), TIME, settings).iter().map(luminance).sum::<f64>()
         };
@@ -188,10 +186,9 @@ fn gaps_too_narrow_to_be_seen_are_closed() {
         let picture = |size: [u32; 2]| {
             let mut renderer = renderer(size);
             renderer.set_disk(Some(disk.clone()));
-            // The first order alone, for the others are closed at any size.
-            let settings = Settings { orders: 1, pixel_error: 100.0, ..settings() };
             let camera = camera(27.0, degrees, 60f64.to_radians());
-            shown(&mut renderer, camera, 100.0, settings).iter().map(|p| f64::from(p[1])).collect::<Vec<f64>>()
+            // The first order alone, for the others are closed at any size.
+            shown(&mut renderer, camera, 100.0, of_orders(1)).iter().map(|p| f64::from(p[1])).collect::<Vec<f64>>()
         };
         // In blocks of 4 × 4 pixels of the small one: where a line falls within a pixel is chance.
         let blocks = |picture: &[f64], size: [u32; 2]| {

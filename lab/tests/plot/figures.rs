@@ -82,14 +82,7 @@ fn one_figure_becomes_svg_and_png() {
     let [svg, png] = everything().save(folder.path(), "all").unwrap();
     let text = std::fs::read_to_string(svg).unwrap();
     for word in [
-        "Everything is drawn",
-        "All there is",
-        "Another.",
-        "exact φ ψ ≤ × °",
-        "broken",
-        "half a pixel",
-        "straight",
-        "theirs",
+        "Everything is drawn", "All there is", "Another.", "exact φ ψ ≤ × °", "broken", "half a pixel", "straight", "theirs",
         "lensrunner-lab chart",
     ] {
         assert!(text.contains(word), "the SVG lacks {word}");

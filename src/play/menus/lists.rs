@@ -120,24 +120,11 @@ fn result(world: &World, session: &Session) -> Vec<Entry> {
 pub fn settings_of(page: Page) -> &'static [&'static str] {
     match page {
         Page::Video => &[
-            "video.fullscreen",
-            "video.vsync",
-            "video.frame_limit",
-            "video.quality",
-            "video.held_rate",
-            "video.fov",
-            "accessibility.text_size",
-            "interface.hud",
-            "video.pause_without_focus",
+            "video.fullscreen", "video.vsync", "video.frame_limit", "video.quality", "video.held_rate", "video.fov",
+            "accessibility.text_size", "interface.hud", "video.pause_without_focus",
         ],
         Page::Sound => &[
-            "sound.master",
-            "sound.mute_master",
-            "sound.effects",
-            "sound.mute_effects",
-            "sound.music",
-            "sound.mute_music",
-            "sound.beacon",
+            "sound.master", "sound.mute_master", "sound.effects", "sound.mute_effects", "sound.music", "sound.mute_music", "sound.beacon",
             "sound.mute_beacon",
         ],
         Page::Controls => &[

@@ -47,13 +47,7 @@ use state::{Overlay, Passing, Seen, Tab};
 const COUNTER_PERIOD: f64 = 0.5;
 /// Settings of the page of light.
 const LIGHT: [&str; 8] = [
-    "render.lensing",
-    "render.doppler",
-    "render.beaming",
-    "render.light_delay",
-    "render.orders",
-    "render.method",
-    "disk.representation",
+    "render.lensing", "render.doppler", "render.beaming", "render.light_delay", "render.orders", "render.method", "disk.representation",
     "aurora.walk",
 ];
 

@@ -202,15 +202,8 @@ impl Aurora {
     fn make_groups(&self, device: &wgpu::Device) -> Option<VeilGroups> {
         let levels = self.levels.as_ref()?;
         let walk = [
-            &self.settings,
-            &self.instances,
-            &self.nodes.buffer,
-            &self.segments.buffer,
-            &self.falls.buffer,
-            &self.chords.buffer,
-            &self.strokes.buffer,
-            &self.draws,
-            &self.references.buffer,
+            &self.settings, &self.instances, &self.nodes.buffer, &self.segments.buffer, &self.falls.buffer, &self.chords.buffer,
+            &self.strokes.buffer, &self.draws, &self.references.buffer,
         ];
         let walk = walk.iter().map(|buffer| buffer.as_entire_binding());
         let walk: Vec<_> = walk.chain([wgpu::BindingResource::TextureView(self.ranges.view())]).collect();

@@ -239,12 +239,7 @@ impl Geometry {
     fn make_groups(&self, device: &wgpu::Device, models: &Models) -> ([wgpu::BindGroup; 3], wgpu::BindGroup) {
         let compute = std::array::from_fn(|kind| {
             let buffers = [
-                &self.seen.buffer,
-                &self.states.buffer,
-                &self.pieces.buffer,
-                &self.work.buffer,
-                &self.indices.buffer,
-                &self.thin.buffer,
+                &self.seen.buffer, &self.states.buffer, &self.pieces.buffer, &self.work.buffer, &self.indices.buffer, &self.thin.buffer,
                 &self.counters,
             ];
             let tables = [

@@ -5,40 +5,9 @@ pub const MOST_BUTTONS: usize = 4;
 
 /// Keys beside letters, digits and function keys, as the W3C UI Events `code` values (and Bevy's `KeyCode`) name them.
 const KEYS: [&str; 34] = [
-    "Space",
-    "Enter",
-    "Escape",
-    "Tab",
-    "Backspace",
-    "Delete",
-    "Insert",
-    "Home",
-    "End",
-    "PageUp",
-    "PageDown",
-    "ArrowUp",
-    "ArrowDown",
-    "ArrowLeft",
-    "ArrowRight",
-    "ShiftLeft",
-    "ShiftRight",
-    "ControlLeft",
-    "ControlRight",
-    "AltLeft",
-    "AltRight",
-    "Minus",
-    "Equal",
-    "BracketLeft",
-    "BracketRight",
-    "Semicolon",
-    "Quote",
-    "Backquote",
-    "Backslash",
-    "Comma",
-    "Period",
-    "Slash",
-    "CapsLock",
-    "NumpadEnter",
+    "Space", "Enter", "Escape", "Tab", "Backspace", "Delete", "Insert", "Home", "End", "PageUp", "PageDown", "ArrowUp", "ArrowDown",
+    "ArrowLeft", "ArrowRight", "ShiftLeft", "ShiftRight", "ControlLeft", "ControlRight", "AltLeft", "AltRight", "Minus", "Equal",
+    "BracketLeft", "BracketRight", "Semicolon", "Quote", "Backquote", "Backslash", "Comma", "Period", "Slash", "CapsLock", "NumpadEnter",
 ];
 
 /// The buttons of a mouse.
@@ -46,34 +15,14 @@ pub const MOUSE: [&str; 3] = ["MouseLeft", "MouseRight", "MouseMiddle"];
 
 /// The buttons of a gamepad, by place: `PadSouth` is the lowest of the four on the right, `PadUp` is on the directional pad.
 pub const PAD: [&str; 16] = [
-    "PadSouth",
-    "PadEast",
-    "PadNorth",
-    "PadWest",
-    "PadLeftBumper",
-    "PadRightBumper",
-    "PadLeftTrigger",
-    "PadRightTrigger",
-    "PadSelect",
-    "PadStart",
-    "PadLeftThumb",
-    "PadRightThumb",
-    "PadUp",
-    "PadDown",
-    "PadLeft",
-    "PadRight",
+    "PadSouth", "PadEast", "PadNorth", "PadWest", "PadLeftBumper", "PadRightBumper", "PadLeftTrigger", "PadRightTrigger", "PadSelect",
+    "PadStart", "PadLeftThumb", "PadRightThumb", "PadUp", "PadDown", "PadLeft", "PadRight",
 ];
 
 /// The ways in which the sticks of a gamepad are pushed.
 pub const STICKS: [&str; 8] = [
-    "PadLeftStickUp",
-    "PadLeftStickDown",
-    "PadLeftStickLeft",
-    "PadLeftStickRight",
-    "PadRightStickUp",
-    "PadRightStickDown",
-    "PadRightStickLeft",
-    "PadRightStickRight",
+    "PadLeftStickUp", "PadLeftStickDown", "PadLeftStickLeft", "PadLeftStickRight", "PadRightStickUp", "PadRightStickDown",
+    "PadRightStickLeft", "PadRightStickRight",
 ];
 
 /// Whether `name` is a key or button.

@@ -109,21 +109,8 @@ use Allowed::{Buttons, Choice, Switch, Words};
 
 /// The actions that may be switched with a tap instead of held.
 pub const HELD: &[&str] = &[
-    "thrust_forward",
-    "thrust_back",
-    "thrust_left",
-    "thrust_right",
-    "thrust_up",
-    "thrust_down",
-    "boost",
-    "fire",
-    "pitch_up",
-    "pitch_down",
-    "yaw_left",
-    "yaw_right",
-    "roll_left",
-    "roll_right",
-    "look_at_target",
+    "thrust_forward", "thrust_back", "thrust_left", "thrust_right", "thrust_up", "thrust_down", "boost", "fire", "pitch_up", "pitch_down",
+    "yaw_left", "yaw_right", "roll_left", "roll_right", "look_at_target",
 ];
 
 config! {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::{Triangle, View, rounded};
 
@@ -106,6 +106,11 @@ pub fn geodesic(frequency: usize) -> Vec<[DVec3; 3]> {
         }
     }
     triangles
+}
+
+/// The same of this centre and radius: a closed mesh with many triangles at each corner.
+pub fn ball(frequency: usize, centre: Vec3, radius: f32) -> Vec<Triangle> {
+    geodesic(frequency).into_iter().map(|t| t.map(|p| (centre + p.as_vec3() * radius).to_array())).collect()
 }
 
 fn rotate_axes(p: DVec3, by: usize) -> DVec3 {
