@@ -20,7 +20,7 @@ pub type Inside = (&'static str, &'static [u8]);
 static INSIDE: OnceLock<&'static [Inside]> = OnceLock::new();
 
 /// Says which files are inside the program, before any is looked for.
-pub fn bring(files: &'static [Inside]) {
+pub fn embed(files: &'static [Inside]) {
     // Who calls twice has said it already.
     _ = INSIDE.set(files);
 }

@@ -16,7 +16,7 @@ use lensrunner::lensing::project::{self, ProjectError};
 use lensrunner::lensing::{self, Scheme, methods};
 use lensrunner::picture_file::moment::moment_of;
 use lensrunner::scene::config::Assignment;
-use lensrunner::scene::crew::Crew;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{self, Difficulty};
 use lensrunner::sim::replay::{Replay, ReplayError, record};
 use lensrunner::sim::run::RunRequest;
@@ -166,7 +166,7 @@ struct SimulateArgs {
     difficulty: Difficulty,
     /// Who flies the player's ship: naive, apprentice, expert, or hands, which throw it about.
     #[arg(long, value_name = "NAME", default_value_t)]
-    pilot: Crew,
+    pilot: PilotKind,
     /// Another program flies: a line of JSON with what is seen goes to standard output, a line with what to do comes from standard input.
     #[arg(long, conflicts_with_all = ["replay", "sweep", "output", "pilot"])]
     agent: bool,
@@ -287,7 +287,7 @@ fn parsed() -> Result<Cli, ExitCode> {
 }
 
 fn main() -> ExitCode {
-    lensrunner::game_files::bring(inside::FILES);
+    lensrunner::game_files::embed(inside::FILES);
     let cli = match parsed() {
         Ok(cli) => cli,
         Err(code) => return code,
@@ -384,7 +384,7 @@ fn alone(at: f64, picture: &PictureOut) -> Result<(), String> {
 }
 
 /// Says how far the work is; ends the program when nobody listens any more.
-fn tell_progress(share: f64) {
+fn report_progress(share: f64) {
     let mut out = io::stdout().lock();
     if writeln!(out, "progress {share:.2}").and_then(|()| out.flush()).is_err() {
         std::process::exit(1);
@@ -402,7 +402,7 @@ fn run_trace(args: &TraceArgs) -> ExitCode {
         packet: args.packet,
         limit: args.limit,
     };
-    let progress = args.progress.then_some(&tell_progress as &(dyn Fn(f64) + Sync));
+    let progress = args.progress.then_some(&report_progress as &(dyn Fn(f64) + Sync));
     let output = to_file::Output { file: &args.picture.output, layers: args.layers, text: None, progress };
     let traced = match &moment_of(args.shown.scene.as_deref(), args.shown.from.as_deref()) {
         None => scene::config::find_with(args.picture.config.as_deref(), &args.picture.set)
@@ -441,8 +441,8 @@ fn run_simulate(args: &SimulateArgs) -> ExitCode {
 fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
     let config = scene::config::find(args.config.as_deref())?;
     let scene = scene::load(args.scene.as_deref().unwrap_or_default())?;
-    let SimulateArgs { until, every, seed, difficulty, pilot: crew, .. } = *args;
-    let request = simulate::SimulateRequest { until, every, seed, crew };
+    let SimulateArgs { until, every, seed, difficulty, pilot, .. } = *args;
+    let request = simulate::SimulateRequest { until, every, seed, pilot };
     let levelled = scene.config(&config, difficulty);
     request.check(&scene, &levelled)?;
     if args.agent {
@@ -456,7 +456,7 @@ fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
     }
     if let Some(path) = &args.save_replay {
         request.check_recorded(&scene, &levelled)?;
-        let (report, replay) = record(&scene, &config, &RunRequest { difficulty, crew, seed, until });
+        let (report, replay) = record(&scene, &config, &RunRequest { difficulty, pilot, seed, until });
         save(path, &replay.to_text())?;
         eprintln!("{}: {} at T = {}", path.display(), replay.outcome, report.time);
         return Ok(());
@@ -468,7 +468,7 @@ fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
         }
         let rows = sweep::combinations(&args.sweep, args.seeds)
             .ok_or_else(|| SimulateError::Input(format!("a sweep has at most {} flights", sweep::MOST_FLIGHTS)))?;
-        let run = RunRequest { difficulty, crew, seed, until };
+        let run = RunRequest { difficulty, pilot, seed, until };
         return Ok(sweep::sweep(&scene, &config, &args.sweep, &rows, (&run, args.seeds), &mut out)?);
     }
     simulate::simulate(&scene, &levelled, &request, &mut out, &mut io::stderr())?;

@@ -1,6 +1,5 @@
 //! All integration tests in one binary (linking is the slow part); the folders mirror `src/`.
 
-mod doors;
 #[cfg(feature = "game")]
 mod gpu;
 mod house;
@@ -22,6 +21,7 @@ mod spacetime;
 mod support;
 #[cfg(feature = "game")]
 mod twin;
+mod untrusted_input;
 #[cfg(feature = "game")]
 mod window;
 #[cfg(feature = "game")]

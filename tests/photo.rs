@@ -6,25 +6,25 @@ use std::time::Duration;
 
 use glam::DQuat;
 use lensrunner::judge::case::{Case, DEFAULT_TOLERANCE};
-use lensrunner::judge::picture::{DEFAULT_PACKET, Quality};
+use lensrunner::judge::picture::{DEFAULT_PACKET, Sampling};
 use lensrunner::picture_file::text::read_text;
 use lensrunner::picture_file::{png, write_png_with_text};
 use lensrunner::play::camera::{CameraView, on_ship, state_of};
 use lensrunner::play::demonstration::{DemonstrationRequest, drawn, fly};
-use lensrunner::play::develop::{Developing, Progress};
+use lensrunner::play::develop::{DevelopProgress, Developing};
 use lensrunner::play::session::Session;
 use lensrunner::render::Renderer;
-use lensrunner::render::gpu::readback::Picture;
+use lensrunner::render::gpu::readback::ReadbackPicture;
 use lensrunner::render::gpu::targets::target;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::shot::{shot_again, surroundings};
 use lensrunner::render::stage::{Stage, settings};
-use lensrunner::scene::crew::Crew;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{self, Difficulty, GameConfig, Scene};
 use lensrunner::sim::Moment;
 use lensrunner::sim::replay::{Record, Replay};
 use lensrunner::sim::snapshot::{FrameCamera, Snapshot, step_after};
-use lensrunner::sim::{Bolts, Fleet, Hands, History};
+use lensrunner::sim::{Bolts, Fleet, History, PlayerCommands};
 
 use crate::gpu::GPU;
 use crate::support::Folder;
@@ -40,20 +40,20 @@ fn flight() -> (Scene, GameConfig, Replay) {
     config.ship.bolts = 3;
     config.render.orders = 3;
     config.sky.star_brightness = 0.5;
-    let mut flight = Replay::begin(&scene, &config, Difficulty::Hard, Crew::Expert, 5);
-    let hands = |tick: u64| Hands {
+    let mut flight = Replay::begin(&scene, &config, Difficulty::Hard, PilotKind::Expert, 5);
+    let commands = |tick: u64| PlayerCommands {
         thrust: [0, 30, -127],
         turn: [(tick % 7) as i8, 3, 0],
         fire: tick == 10 || tick == 40,
         assist: tick > 30,
-        ..Hands::default()
+        ..PlayerCommands::default()
     };
-    flight.records = (0..90).map(|tick| Record { tick, hands: hands(tick) }).collect();
+    flight.records = (0..90).map(|tick| Record { tick, commands: commands(tick) }).collect();
     (scene, config, flight)
 }
 
 /// What the game draws of that flight, and the moment that its picture is to carry.
-fn original(view: CameraView) -> (Picture, Snapshot) {
+fn original(view: CameraView) -> (ReadbackPicture, Snapshot) {
     let (scene, config, flight) = flight();
     let step = config.clock.step;
     let (time, ticks) = (STEPS * step, step_after(STEPS * step, step) as u64);
@@ -86,7 +86,7 @@ fn flown_again(path: &Path) -> (Snapshot, Moment) {
     (snapshot, moment)
 }
 
-fn rgb(picture: &Picture) -> Vec<u8> {
+fn rgb(picture: &ReadbackPicture) -> Vec<u8> {
     picture.display.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect()
 }
 
@@ -120,8 +120,8 @@ fn a_picture_is_made_again_from_its_file() {
         println!("{name}: layers of {differ} pixels have other bits");
         assert!(differ * 500 <= again.layers.len());
         let case = Case::again(&snapshot, &moment, SIZE);
-        let quality = Quality { samples: 1, tolerance: DEFAULT_TOLERANCE, packet: DEFAULT_PACKET };
-        let judge = case.trace(&quality, true, &|_| ());
+        let sampling = Sampling { samples: 1, tolerance: DEFAULT_TOLERANCE, packet: DEFAULT_PACKET };
+        let judge = case.trace(&sampling, true, &|_| ());
         let what = |id: u32| (id > 0).then(|| case.assembly.objects[id as usize - 1].name.clone());
         let count = |ids: &mut dyn Iterator<Item = u32>, name: &str| {
             ids.filter(|id| what(*id).is_some_and(|found| found.starts_with(name))).count()
@@ -151,14 +151,14 @@ fn frames_of_the_demonstration_are_made_again() {
     let folder = Folder::new();
     let mut session = Session::load(None, Some("chase"), Some(3)).unwrap();
     session.config = GameConfig::default();
-    let mut flight = Replay::begin(&session.scene, &session.config, session.difficulty, Crew::Expert, session.seed);
-    let hands = |k: u64| Hands { thrust: [0, 0, -100], turn: [0, k as i8, 0], assist: true, ..Hands::default() };
-    flight.records = (0..40).map(|k| Record { tick: 16 * k, hands: hands(k) }).collect();
+    let mut flight = Replay::begin(&session.scene, &session.config, session.difficulty, PilotKind::Expert, session.seed);
+    let commands = |k: u64| PlayerCommands { thrust: [0, 0, -100], turn: [0, k as i8, 0], assist: true, ..PlayerCommands::default() };
+    flight.records = (0..40).map(|k| Record { tick: 16 * k, commands: commands(k) }).collect();
     let request = DemonstrationRequest {
         frames: FRAMES,
         size: SIZE,
         folder: folder.path().to_path_buf(),
-        crew: Crew::Expert,
+        pilot: PilotKind::Expert,
         replay: Some(flight),
         sound: None,
     };
@@ -198,7 +198,7 @@ fn a_scene_of_ones_own_travels_along() {
     let scene = scene::load(file.to_str().unwrap()).unwrap();
     std::fs::remove_file(&file).unwrap();
     let config = GameConfig::default();
-    let flight = Replay::begin(&scene, &config, Difficulty::default(), Crew::Expert, 0);
+    let flight = Replay::begin(&scene, &config, Difficulty::default(), PilotKind::Expert, 0);
     let camera = scene.camera.viewpoint(0.0, &[]);
     let (world, shot) = (bevy::prelude::World::new(), FrameCamera { camera, hidden: None, lit: None });
     let snapshot = Snapshot::new(flight.up_to(16, &world), &scene, &config, &world, 0.5, shot, SIZE);
@@ -260,10 +260,10 @@ fn the_commands_take_a_picture() {
 }
 
 /// Waits for the end, which comes whether soon or late.
-fn end(developing: &Developing) -> Progress {
+fn end(developing: &Developing) -> DevelopProgress {
     loop {
         match developing.progress() {
-            Progress::Traced(share) => assert!((0.0..=1.0).contains(&share)),
+            DevelopProgress::Traced(share) => assert!((0.0..=1.0).contains(&share)),
             end => return end,
         }
         std::thread::sleep(Duration::from_millis(10));
@@ -275,12 +275,12 @@ fn a_picture_is_developed_in_the_background() {
     let folder = Folder::new();
     let program = Path::new(env!("CARGO_BIN_EXE_lensrunner"));
     let photo = picture(&folder, "a.png", [32, 18]);
-    assert_eq!(end(&Developing::trace_with(program, &photo, 1, &exact(&photo))), Progress::Done(exact(&photo)));
+    assert_eq!(end(&Developing::trace_with(program, &photo, 1, &exact(&photo))), DevelopProgress::Done(exact(&photo)));
     assert_eq!(image::image_dimensions(exact(&photo)).unwrap(), (32, 18));
     let plain = folder.path().join("plain.png");
     std::fs::write(&plain, png(&[0; 3], [1, 1], true, None).unwrap()).unwrap();
-    let failed = |progress: Progress, told: &str| match progress {
-        Progress::Failed(why) => assert!(why.contains(told) && !why.contains('\n'), "{why}"),
+    let failed = |progress: DevelopProgress, told: &str| match progress {
+        DevelopProgress::Failed(why) => assert!(why.contains(told) && !why.contains('\n'), "{why}"),
         other => panic!("{told}: {other:?}"),
     };
     failed(end(&Developing::trace_with(program, &plain, 1, &exact(&plain))), "carries no moment");
@@ -290,6 +290,6 @@ fn a_picture_is_developed_in_the_background() {
     let large = picture(&folder, "large.png", [8000, 8000]);
     let developing = Developing::trace_with(program, &large, 256, &exact(&large));
     developing.cancel();
-    assert_eq!(developing.progress(), Progress::Cancelled);
+    assert_eq!(developing.progress(), DevelopProgress::Cancelled);
     assert!(!exact(&large).exists());
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use lensrunner::lensing::methods::{self, Projector, Query};
+use lensrunner::lensing::methods::{self, ProjectionInput, Projector};
 use lensrunner::lensing::{Scheme, Table, bake};
 use lensrunner::spacetime::light::{Branch, Order};
 
@@ -17,8 +17,8 @@ pub fn says_where_no_ray_is(name: &str, method: &dyn Projector) {
     let dark = [(0.5, 1.0, 5.0, 1), (0.9999, 0.1, 1.01, 1), (0.3, 0.5, 0.5, 1), (0.8, 2.9, 0.7, 1), (0.8, 0.2, 0.5, 2)];
     for (r, phi, camera, order) in dark {
         let order = Order::new(order).unwrap();
-        assert!(methods::Exact.project(Query { r, phi, camera }, order, Branch::Plus).is_none());
-        let answer = method.project(Query { r, phi, camera }, order, Branch::Plus);
+        assert!(methods::Exact.project(ProjectionInput { r, phi, camera }, order, Branch::Plus).is_none());
+        let answer = method.project(ProjectionInput { r, phi, camera }, order, Branch::Plus);
         // Straight lines know nothing of a hole: the one method that invents.
         assert!(answer.is_none() || name == "flat", "{name} answers at r {r} φ {phi} L {camera}");
     }
@@ -27,7 +27,7 @@ pub fn says_where_no_ray_is(name: &str, method: &dyn Projector) {
             for phi in [1e-9, 1e-4, 1.0, PI - 1e-4, PI - 1e-9] {
                 for order in Order::ALL {
                     for branch in [Branch::Plus, Branch::Minus] {
-                        if let Some(sight) = method.project(Query { r, phi, camera }, order, branch) {
+                        if let Some(sight) = method.project(ProjectionInput { r, phi, camera }, order, branch) {
                             let sound =
                                 sight.psi_rain.is_finite() && (0.0..=PI + 1e-6).contains(&sight.psi_rain) && sight.delay.is_finite();
                             assert!(sound, "{name} at r {r} φ {phi} L {camera} {order:?} {branch:?}: {sight:?}");
@@ -45,7 +45,7 @@ pub fn does_not_jump_on_the_fall(name: &str, rounding: f64, method: &dyn Project
     let points: Vec<(f64, f64)> =
         [1.2, 1.5, 2.0, 6.0, 60.0, 3000.0].into_iter().flat_map(|r| [0.01, 0.4, 1.0, 1.8, 2.6, 3.1].map(|phi| (r, phi))).collect();
     let look = |r, phi, camera, order| {
-        method.project(Query { r, phi, camera }, order, Branch::Plus).unwrap_or_else(|| panic!("{name}: nothing seen")).psi_rain
+        method.project(ProjectionInput { r, phi, camera }, order, Branch::Plus).unwrap_or_else(|| panic!("{name}: nothing seen")).psi_rain
     };
     let mut worst: f64 = 0.0;
     for order in Order::ALL {

@@ -9,7 +9,7 @@ use lensrunner::play::choices::Choices;
 use lensrunner::play::loading::Loading;
 use lensrunner::play::picture::CurrentShot;
 use lensrunner::play::session::Session;
-use lensrunner::play::window::{Options, Surface, app};
+use lensrunner::play::window::{Options, OutputSurface, app};
 use lensrunner::render::plugin::FrameToDraw;
 use lensrunner::sim::Clock;
 
@@ -22,7 +22,7 @@ fn game() -> App {
     let mut config = session.clone();
     config.config.interface.warned = true;
     let options = Options { at_once: true, ..Options::default() };
-    let mut app = app(config, &options, Surface::Picture([64, 48]), Choices::default());
+    let mut app = app(config, &options, OutputSurface::Picture([64, 48]), Choices::default());
     app.finish();
     app.cleanup();
     app

@@ -1,5 +1,5 @@
-//! Fuzzing of every place where Lensrunner reads what a person hands in. `fuzz/run DOOR SECONDS` starts it; see docs/doors.md.
+//! Fuzzing of every place where Lensrunner reads untrusted input. `fuzz/run TARGET SECONDS` starts it; see docs/untrusted-input.md.
 
-pub mod doors;
 mod limit;
 pub mod mutate;
+pub mod untrusted_input;

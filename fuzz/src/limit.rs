@@ -1,5 +1,5 @@
-//! An allocator that ends the program where it is asked for more than any door needs: without a sanitizer, libFuzzer sees memory only once
-//! it is used.
+//! An allocator that ends the program where it is asked for more than any target needs: without a sanitizer, libFuzzer sees memory only
+//! once it is used.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 

@@ -1,7 +1,7 @@
 //! Lines of JSON of a program that flies.
 #![no_main]
 
-use lensrunner_fuzz::{doors, mutate};
+use lensrunner_fuzz::{mutate, untrusted_input};
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| doors::knock("agent", bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| untrusted_input::check("agent", bytes));
 libfuzzer_sys::fuzz_mutator!(|data: &mut [u8], size: usize, most: usize, seed: u32| { mutate::text(data, size, most, seed) });

@@ -1,7 +1,7 @@
 //! Tables of light.
 #![no_main]
 
-use lensrunner_fuzz::{doors, mutate};
+use lensrunner_fuzz::{mutate, untrusted_input};
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| doors::knock("table", bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| untrusted_input::check("table", bytes));
 libfuzzer_sys::fuzz_mutator!(|data: &mut [u8], size: usize, most: usize, seed: u32| { mutate::table(data, size, most, seed) });

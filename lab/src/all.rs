@@ -49,7 +49,7 @@ pub fn status(args: &StatusArgs) -> ExitCode {
         let stands = made.as_ref().map_or(Standing::Missing, |made| standing(root, &made.on.commit, &product.sources));
         stale += usize::from(stands != Standing::Fresh);
         if !args.stale || stands != Standing::Fresh {
-            say(format_args!("{}: {stands}{}", product.name, made.as_ref().map(told).unwrap_or_default()));
+            say(format_args!("{}: {stands}{}", product.name, made.as_ref().map(provenance_text).unwrap_or_default()));
         }
     }
     say(format_args!("{} products, {stale} stale or missing", products.len()));
@@ -57,7 +57,7 @@ pub fn status(args: &StatusArgs) -> ExitCode {
 }
 
 /// How a product came to be.
-fn told(made: &Made) -> String {
+fn provenance_text(made: &Made) -> String {
     let on = [&made.on.commit, &made.on.date, &made.on.processor, &made.on.adapter];
     let on: Vec<&str> = on.into_iter().map(String::as_str).filter(|text| !text.is_empty()).collect();
     let how = if made.guessed { " (committed; how it was made is not recorded)" } else { "" };

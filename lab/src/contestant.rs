@@ -3,9 +3,9 @@
 use std::sync::{Mutex, PoisonError};
 
 use crate::compare::command::MARKS;
-use crate::compare::{Frame, Shown};
+use crate::compare::{ContestantFrame, Shown};
 use lensrunner::judge::case::Case;
-use lensrunner::render::gpu::readback::{Picture, PictureError};
+use lensrunner::render::gpu::readback::{PictureError, ReadbackPicture};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::shot::surroundings;
 use lensrunner::render::stage::{Stage, settings};
@@ -14,13 +14,13 @@ use lensrunner::scene::Model;
 
 /// The game's renderer, kept from case to case: its device and its passes are made once.
 #[derive(Default)]
-pub struct Contestant {
+pub struct GameContestant {
     renderer: Mutex<Option<Renderer>>,
     /// Divides edges by their midpoints alone (`Settings::midpoint`).
     midpoint: bool,
 }
 
-impl Contestant {
+impl GameContestant {
     /// The same renderer with the criterion of Yamashita 2025, or with its own.
     pub fn set_midpoint(&mut self, midpoint: bool) {
         self.midpoint = midpoint;
@@ -28,9 +28,9 @@ impl Contestant {
 
     /// Draws the case as the game does: with its sky, without, and twice with layers, of models marked finely and coarsely. Auroras have a
     /// judge of their own and are left out.
-    pub fn draw(&self, case: &Case) -> Result<Frame, String> {
+    pub fn draw(&self, case: &Case) -> Result<ContestantFrame, String> {
         self.with_renderer(case, |renderer| {
-            let mut stage = staged(renderer, case, None);
+            let mut stage = stage_of(renderer, case, None);
             let [sky, bare] = [
                 drawn(renderer, case, &mut stage, false, self.with(case, true))?,
                 drawn(renderer, case, &mut stage, false, self.with(case, false))?,
@@ -39,7 +39,7 @@ impl Contestant {
             let (first, second) = (first?, second?);
             let rgb = |light: &[[f32; 4]]| light.iter().map(|p| [p[0], p[1], p[2]]).collect();
             let shown = (0..first.layers.len()).map(|i| shown(&first, &second, i));
-            Ok(Frame { size: sky.size, light: rgb(&sky.linear), bare: rgb(&bare.linear), shown: shown.collect() })
+            Ok(ContestantFrame { size: sky.size, light: rgb(&sky.linear), bare: rgb(&bare.linear), shown: shown.collect() })
         })
     }
 
@@ -84,19 +84,19 @@ fn renderer(size: [u32; 2]) -> Result<Renderer, DeviceError> {
 }
 
 /// The picture with layers, without the sky, of models marked so.
-fn marked(renderer: &mut Renderer, case: &Case, mark: fn(&Model) -> Model, settings: Settings) -> Result<Picture, DrawError> {
-    let mut stage = staged(renderer, case, Some(mark));
+fn marked(renderer: &mut Renderer, case: &Case, mark: fn(&Model) -> Model, settings: Settings) -> Result<ReadbackPicture, DrawError> {
+    let mut stage = stage_of(renderer, case, Some(mark));
     drawn(renderer, case, &mut stage, true, settings)
 }
 
-fn staged(renderer: &mut Renderer, case: &Case, mark: Option<fn(&Model) -> Model>) -> Stage {
+fn stage_of(renderer: &mut Renderer, case: &Case, mark: Option<fn(&Model) -> Model>) -> Stage {
     renderer.resize(case.camera.size);
     let mut config = case.config.clone();
     config.aurora.enabled = false;
     Stage::of(renderer, &case.scene, case.assembly.clone(), &config, mark)
 }
 
-fn drawn(renderer: &mut Renderer, case: &Case, stage: &mut Stage, layers: bool, settings: Settings) -> Result<Picture, DrawError> {
+fn drawn(renderer: &mut Renderer, case: &Case, stage: &mut Stage, layers: bool, settings: Settings) -> Result<ReadbackPicture, DrawError> {
     let histories: Vec<_> = case.histories.iter().collect();
     let frame = stage.frame(case.camera.observer, case.camera.size, case.time, &histories, case.hidden, &settings);
     let picture = renderer.picture(&frame, layers)?;
@@ -107,11 +107,11 @@ fn drawn(renderer: &mut Renderer, case: &Case, stage: &mut Stage, layers: bool, 
 }
 
 /// Draws the case on a device of its own.
-pub fn draw(case: &Case) -> Result<Frame, String> {
-    Contestant::default().draw(case)
+pub fn draw(case: &Case) -> Result<ContestantFrame, String> {
+    GameContestant::default().draw(case)
 }
 
-fn shown(first: &Picture, second: &Picture, i: usize) -> Shown {
+fn shown(first: &ReadbackPicture, second: &ReadbackPicture, i: usize) -> Shown {
     let [what, surface] = [first.layers[i], first.surface[i]];
     Shown {
         object: what[0] as u32,

@@ -11,8 +11,8 @@ use lensrunner::play::camera::{CameraView, on_ship, state_of};
 use lensrunner::render::Gpu;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::{Stage, settings};
-use lensrunner::scene::crew::Crew;
 use lensrunner::scene::mission::Difficulty;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::{History, Moment};
 
@@ -96,7 +96,7 @@ fn fly(gpu: &Gpu, name: &str, pace: f64, seed: u64, frames: usize, size: [u32; 2
     let mut drawn: Vec<Drawn> = Vec::new();
     let (mut coarse, mut not_finite, mut calmed, mut done) = (0, 0, 0, 0);
     for flight in 0.. {
-        let mut moment = Moment::with_crew(&scene, &config, 5 * flight + seed, Crew::Hands);
+        let mut moment = Moment::with_pilot(&scene, &config, 5 * flight + seed, PilotKind::Hands);
         let mut time = FROM;
         while done < frames + WARMING {
             while moment.time() < time + config.clock.step && !moment.is_decided() {

@@ -3,7 +3,7 @@
 //! - [`compare`]: the verdict on the game's picture, by the judge; [`contestant`] draws that picture.
 //! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`], [`flight`], [`tessellation`]: each a chart of error against time;
 //!   [`frame_times`] times whole frames, [`window_rates`] frames in a window.
-//! - [`dial`]: what each knob of the quality costs and saves, and whether that predicts.
+//! - [`dial`]: what each option of the quality costs and saves, and whether that predicts.
 //! - [`quarry`]: how long the game's quarry lasts beside blind ones.
 //! - [`steps`]: what a step of the simulation costs; [`overlay_cost`]: what the dev overlay costs the processor.
 //! - [`straight`]: straight rays through trees of boxes (Sei 2008), which `bvh` measures.

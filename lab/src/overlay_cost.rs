@@ -8,11 +8,11 @@ use bevy_egui::egui::{Context, Pos2, RawInput, Rect, vec2};
 use clap::Args;
 use lensrunner::argument::whole;
 use lensrunner::play::overlay::frames::Frames;
-use lensrunner::play::overlay::history::{History, marks};
+use lensrunner::play::overlay::history::{EditHistory, marks};
 use lensrunner::play::overlay::place::places;
 use lensrunner::play::overlay::quality::QualityReport;
 use lensrunner::play::overlay::show;
-use lensrunner::play::overlay::state::{Overlay, Passing, Seen, Tab};
+use lensrunner::play::overlay::state::{Overlay, OverlayView, Passing, Tab};
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::config::section_names;
 
@@ -70,7 +70,7 @@ struct Run {
 }
 
 impl Run {
-    fn frame(&mut self, seen: &Seen, frame: usize) {
+    fn frame(&mut self, seen: &OverlayView, frame: usize) {
         let screen = Rect::from_min_size(Pos2::ZERO, vec2(1280.0, 720.0));
         let input = RawInput { screen_rect: Some(screen), time: Some(frame as f64 / 60.0), ..RawInput::default() };
         let began = Instant::now();
@@ -94,13 +94,13 @@ pub fn run(request: &OverlayRequest) -> Result<Vec<PathBuf>, ChartError> {
     let mut config = GameConfig::default();
     (config.render.bloom, config.disk.arcs) = (0.5, 900);
     let (begun, quality) = (GameConfig::default(), QualityReport::default());
-    let marks = marks(&config, &begun, &History::default());
+    let marks = marks(&config, &begun, &EditHistory::default());
     let mut frames = Frames::default();
     let mut runs: Vec<Run> = cases().into_iter().map(|case| Run { case, context: Context::default(), times: Vec::new() }).collect();
     for frame in 0..WARM + request.frames {
         note(&mut frames, frame);
         let passing = Passing { now: frame as f64, step: 1.0 / 32.0, end: Some(400.0), ..Passing::default() };
-        let seen = Seen { config: &config, marks: &marks, frames: &frames, counters: None, disk: None, quality: &quality, passing };
+        let seen = OverlayView { config: &config, marks: &marks, frames: &frames, counters: None, disk: None, quality: &quality, passing };
         runs.iter_mut().for_each(|run| run.frame(&seen, frame));
     }
     say(format_args!(

@@ -8,12 +8,12 @@ use bevy::ecs::message::Messages;
 use clap::Args;
 use lensrunner::argument::whole;
 use lensrunner::render::Gpu;
-use lensrunner::render::quality::knobs::turned;
+use lensrunner::render::quality::costs::QualityCosts;
 use lensrunner::render::quality::ladder::ladder;
-use lensrunner::render::quality::prices::Prices;
+use lensrunner::render::quality::options::turned;
 use lensrunner::render::shot::Moment;
 use lensrunner::render::stage::{Stage, settings};
-use lensrunner::scene::crew::Crew;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::{History, SimEvent, app_of};
 
@@ -107,9 +107,9 @@ fn show(gpu: &Gpu, frames: u64, sheet: &mut Sheet) -> Result<(), ChartError> {
         let scene = scene::load(SCENES[round % SCENES.len()])?;
         let mut stage = Stage::new(&mut offscreen.renderer, &scene, &config);
         // By hands, who throw the ship about.
-        let mut moment = Moment::with_crew(&scene, &config, 1, Crew::Hands);
+        let mut moment = Moment::with_pilot(&scene, &config, 1, PilotKind::Hands);
         moment.advance((AT / config.clock.step).round() as u64);
-        let rungs = ladder(Prices::shipped(), class_of(&scene));
+        let rungs = ladder(QualityCosts::shipped(), class_of(&scene));
         for _ in 0..EACH {
             if scene.name == FLIGHT {
                 moment.advance(1);

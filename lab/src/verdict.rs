@@ -9,9 +9,9 @@ use lensrunner::judge::case::{self, Case};
 use lensrunner::judge::picture::DEFAULT_PACKET;
 use lensrunner::picture_file::moment::moment_of;
 use lensrunner::scene;
-use lensrunner::scene::crew::Crew;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner_lab::compare::{command, flight, judged::Terms, random};
-use lensrunner_lab::contestant::Contestant;
+use lensrunner_lab::contestant::GameContestant;
 
 use crate::fail;
 
@@ -52,7 +52,7 @@ pub struct CompareArgs {
     /// Who flies the player's ship in --flight: naive, apprentice, expert, or hands. Hands throw it about, at five paces by turns, and are
     /// looked at as a player looks: from behind, from the cockpit, from all around, and from beside.
     #[arg(long, value_name = "NAME", default_value_t, requires = "flight", conflicts_with = "scene")]
-    pilot: Crew,
+    pilot: PilotKind,
     /// How many chases --flight flies.
     #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = whole::<u64>(1, 100_000))]
     seeds: u64,
@@ -99,7 +99,7 @@ pub struct CompareArgs {
 
 /// Judges.
 pub fn run(args: &CompareArgs) -> ExitCode {
-    let contestant = Contestant::default();
+    let contestant = GameContestant::default();
     let (config, draw) = (args.config.as_deref(), |case: &Case| contestant.draw(case));
     let usual = Terms::default();
     let terms = Terms { seconds: args.limit.unwrap_or(usual.seconds), tolerance: args.tolerance.unwrap_or(usual.tolerance), ..usual };
@@ -120,7 +120,7 @@ pub fn run(args: &CompareArgs) -> ExitCode {
     } else if let Some(scene) = args.flight.clone() {
         let (pilot, seeds, first, moments, at) = (args.pilot, args.seeds, args.first, args.moments, args.at);
         let (size, run) = (args.size.unwrap_or(random::case_file::SIZE), many("out/flight"));
-        let request = flight::command::FlightRequest { scene, pilot, seeds, first, moments, at, size, run };
+        let request = flight::command::FlightCompareRequest { scene, pilot, seeds, first, moments, at, size, run };
         flight::command::run(&request, &draw, &|case: &Case| contestant.show(case)).map(failed)
     } else if let Some(from) = &moment_of(args.scene.as_deref(), args.from.as_deref()) {
         if args.at.is_some() || args.config.is_some() || args.table.is_some() {

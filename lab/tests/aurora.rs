@@ -3,11 +3,11 @@
 use glam::{DQuat, DVec3, Vec3};
 use lensrunner::lensing;
 use lensrunner::spacetime::light::{Branch, Order, connect, rain_angle};
-use lensrunner_lab::aurora::experiment::{ExperimentRequest, View, run};
+use lensrunner_lab::aurora::experiment::{ExperimentRequest, Viewpoint, run};
 use lensrunner_lab::aurora::eye::{Eye, Planet};
 use lensrunner_lab::aurora::lattice::Lattice;
-use lensrunner_lab::aurora::sheet::{FALLS, Falls, LEVELS, Sheet, Streak, TOP, field_direction};
-use lensrunner_lab::aurora::splat::{Gaussian, Picture};
+use lensrunner_lab::aurora::sheet::{FALLS, Falls, FlatAurora, LEVELS, Streak, TOP, field_direction};
+use lensrunner_lab::aurora::splat::{Gaussian, SplatPicture};
 use lensrunner_lab::aurora::truth::Emission;
 use lensrunner_lab::aurora::walk::{Method, Point, Walker};
 use proptest::prelude::*;
@@ -90,7 +90,7 @@ fn tilted(streak: &Streak, degrees: f64, distance: f64) -> Eye {
 
 #[test]
 fn luminous_length_is_right_at_every_angle() {
-    let streak = Sheet::numbered(4).streaks(40)[7];
+    let streak = FlatAurora::numbered(4).streaks(40)[7];
     // Held against the line integral of one streak, with a projection of its own.
     let mut linear_fails = 0;
     for degrees in (1..=90).map(f64::from) {
@@ -121,7 +121,7 @@ fn by_exact_ray(eye: &Eye, point: DVec3) -> DVec3 {
 
 #[test]
 fn luminous_length_is_right_through_bent_light() {
-    let streaks = Sheet::numbered(4).streaks(40);
+    let streaks = FlatAurora::numbered(4).streaks(40);
     let streak = &streaks[7];
     // The middle of the streak's light nearly behind the hole, so that its image is drawn out far along the Einstein ring, in both orders:
     // no one chord is right there. Turned so that field and line of sight make every angle.
@@ -145,10 +145,10 @@ fn luminous_length_is_right_through_bent_light() {
 
 #[test]
 fn the_exact_walk_is_the_particle_method() {
-    for (view, name) in View::ALL {
+    for (view, name) in Viewpoint::ALL {
         let eye = view.eye([640, 360], table());
         let (mut worst, mut worst_linear, mut compared) = (0.0f32, 0.0f32, 0);
-        let streaks = Sheet::numbered(2).streaks(300);
+        let streaks = FlatAurora::numbered(2).streaks(300);
         let all = [Method::Particles, Method::Exact, Method::Linear, Method::Tabled].map(|method| all_points(method, &eye, &streaks));
         // The tabulated falls are those of the particle method, collision by collision, at the same places to rounding.
         let near = |a: &Point, b: &Point| (a.level, a.count) == (b.level, b.count) && (a.x - b.x).hypot(a.y - b.y) < 0.01;
@@ -168,9 +168,9 @@ fn the_exact_walk_is_the_particle_method() {
         }
         assert!(compared > 5000, "{name}: {compared}");
         // Flat: rounding of f32 at a thousand kilometres. Bent: the chords' tolerance of 0.25 pixels, twice where the bend is uneven.
-        let allowed = if view == View::Bent { 0.5 } else { 0.02 };
+        let allowed = if view == Viewpoint::Bent { 0.5 } else { 0.02 };
         assert!(worst < allowed, "{name}: points are up to {worst} px apart");
-        if view == View::Below {
+        if view == Viewpoint::Below {
             assert!(worst_linear > 10.0, "{name}: the linear walk is right to {worst_linear} px");
         }
     }
@@ -178,15 +178,15 @@ fn the_exact_walk_is_the_particle_method() {
 
 #[test]
 fn pictures_agree_with_the_line_integral() {
-    let sheet = Sheet::numbered(1);
+    let sheet = FlatAurora::numbered(1);
     let emission = Emission::new(&sheet, &FALLS_TABLE, 4.0);
     // Measured: exact 0.071, 0.118, 0.083; linear 1.023, 1.468, 1.534 times as much. From the side the field lies along the picture, and
     // both walks are nearly one.
-    for (view, most, times) in [(View::Side, 0.10, 1.01), (View::Below, 0.2, 1.3), (View::Orbit, 0.12, 1.3)] {
+    for (view, most, times) in [(Viewpoint::Side, 0.10, 1.01), (Viewpoint::Below, 0.2, 1.3), (Viewpoint::Orbit, 0.12, 1.3)] {
         let eye = view.eye([192, 108], table());
         let truth = emission.picture(&eye, 1.0);
         let picture = |method: Method| {
-            let mut picture = Picture::new(eye.size);
+            let mut picture = SplatPicture::new(eye.size);
             let found = all_points(method, &eye, &sheet.streaks(8000)).concat();
             picture.add(&found, &FALLS_TABLE, 4.0, &Gaussian::default());
             picture.error(&truth)
@@ -198,8 +198,8 @@ fn pictures_agree_with_the_line_integral() {
 }
 
 /// The sum of Gaussians itself, without cut-off or table; standard deviations from half a pixel to 40.
-fn direct_sum(size: [usize; 2], points: &[Point], radius: f64) -> Picture {
-    let mut picture = Picture::new(size);
+fn direct_sum(size: [usize; 2], points: &[Point], radius: f64) -> SplatPicture {
+    let mut picture = SplatPicture::new(size);
     for point in points {
         let sigma = (radius * f64::from(point.scale)).clamp(0.5, 40.0);
         let weight = f64::from(point.count) * f64::from(point.scale).powi(2) / (std::f64::consts::TAU * sigma * sigma);
@@ -215,10 +215,10 @@ fn direct_sum(size: [usize; 2], points: &[Point], radius: f64) -> Picture {
 
 #[test]
 fn a_picture_is_the_sum_of_gaussians() {
-    let eye = View::Side.eye([96, 54], table());
+    let eye = Viewpoint::Side.eye([96, 54], table());
     for radius in [1.0, 8.0, 40.0] {
-        let found = all_points(Method::Exact, &eye, &Sheet::numbered(0).streaks(50)).concat();
-        let mut picture = Picture::new(eye.size);
+        let found = all_points(Method::Exact, &eye, &FlatAurora::numbered(0).streaks(50)).concat();
+        let mut picture = SplatPicture::new(eye.size);
         picture.add(&found, &FALLS_TABLE, radius, &Gaussian::default());
         let off = picture.error(&direct_sum(eye.size, &found, f64::from(radius)));
         println!("splats of {radius} km: off by {off}");
@@ -231,9 +231,9 @@ fn a_picture_is_the_sum_of_gaussians() {
 fn the_experiment_makes_its_table() {
     let request = ExperimentRequest { auroras: 1, counts: vec![50], radii: vec![3.0], size: [64, 36], repeats: 1 };
     let rows = run(&request, table(), |_| ());
-    assert_eq!(rows.len(), View::ALL.len() * Method::ALL.len());
+    assert_eq!(rows.len(), Viewpoint::ALL.len() * Method::ALL.len());
     assert!(rows.iter().all(|row| row.error.is_finite() && row.total > 0.0));
-    for (_, view) in View::ALL {
+    for (_, view) in Viewpoint::ALL {
         let of = |method: &str| rows.iter().find(|row| row.view == view && row.method == method).unwrap();
         let difference = |method: &str| of(method).difference;
         println!("{view}: exact {}, linear {}", difference("exact"), difference("linear"));
@@ -294,7 +294,7 @@ proptest! {
             // Nearer than a kilometre, behind the camera and where there is no ray nothing is drawn; 1e-5: rounding of the reciprocal.
             let nearest = eye.focal * eye.scale() / eye.near() * (1.0 + 1e-5);
             prop_assert!(found.iter().all(|point| point.scale > 0.0 && point.scale <= nearest), "{name}: {found:?}");
-            let mut picture = Picture::new(eye.size);
+            let mut picture = SplatPicture::new(eye.size);
             picture.add(&found, &FALLS_TABLE, 2.0, &Gaussian::default());
             prop_assert!(picture.pixels.iter().flatten().all(|light| light.is_finite() && *light >= 0.0), "{name}");
         }

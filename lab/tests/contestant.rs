@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use lensrunner::judge::case::Case;
-use lensrunner::judge::picture::Quality;
+use lensrunner::judge::picture::Sampling;
 use lensrunner::scene::{self, GameConfig};
 use lensrunner_lab::contestant;
 
@@ -12,7 +12,7 @@ fn a_globe_of_fewer_triangles_tells_which_points_it_shows() {
     let case = Case::new(scene::load("chase").unwrap(), GameConfig::default(), 0.0, [160, 90]);
     let planet = case.assembly.objects.iter().position(|object| object.body == scene::Body::Planet).unwrap() as u32 + 1;
     let frame = contestant::draw(&case).unwrap();
-    let judge = case.trace(&Quality { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
+    let judge = case.trace(&Sampling { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
     let both = judge
         .layers
         .iter()
@@ -37,7 +37,7 @@ fn thin_images_of_a_ship_cover_what_the_judge_sees_of_them() {
     config.render.least_width = 0.001;
     let case = Case::new(scene::load("plunge").unwrap(), config, 0.0, [320, 180]);
     let frame = contestant::draw(&case).unwrap();
-    let mut judge = case.trace(&Quality { samples: 1, tolerance: 1e-8, packet: 8 }, false, &|_| ());
+    let mut judge = case.trace(&Sampling { samples: 1, tolerance: 1e-8, packet: 8 }, false, &|_| ());
     narrow::see_again(&mut judge, &frame, &probe(&case, 1e-8));
     let seen: f32 = judge.shares.iter().flatten().filter(|share| share.1 == 2).map(|share| share.2).sum();
     let drawn: Vec<f32> = frame.shown.iter().filter(|shown| shown.order == 2).map(|shown| shown.coverage).collect();

@@ -1,8 +1,8 @@
 // Second pass of the aurora: the ends of each streak's chords, from what was projected beside them. One thread per end and image order.
 
 #import lensrunner::aurora::streaks::{
-    across_field, at_height, aurora, between_nodes, chord_height, chord_room, ChordEnd, chords, chords_of, end_seen, first_reference, node_at,
-    RED, Reference, references, segments, streak_of, waits,
+    across_field, at_height, aurora, between_nodes, chord_height, chord_room, ChordEnd, chords, chords_of, end_seen, first_reference,
+    node_at, RED, Reference, references, segments, streak_of, waits,
 }
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::random::{hash, unit}

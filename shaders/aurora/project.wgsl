@@ -4,10 +4,10 @@
 
 #import lensrunner::aurora::streaks::{
     across_field, at_height, aurora, AURORA_BOTH_POLES, aurora_instances, chord_height, chords_of, GREEN, mean_wait, middle_of, RED,
-    Reference, reference_room, references, segments,
+    Reference, reference_capacity, references, segments,
 }
 #import lensrunner::geometry::clip::finite_vector
-#import lensrunner::geometry::project::{answer, query_body, side_towards}
+#import lensrunner::geometry::project::{body_input, project_point, side_towards}
 #import lensrunner::gpu::bindings::frame
 
 /// Distance of the points beside it, in km: large against the rounding of the lookup, small against its bending.
@@ -15,18 +15,18 @@ const ASIDE: f32 = 20.0;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let room = reference_room();
+    let capacity = reference_capacity();
     let both = (aurora.flags & AURORA_BOTH_POLES) != 0u;
     let poles = select(1u, 2u, both);
-    let number = id.x / room;
+    let number = id.x / capacity;
     let segment_index = number / poles;
     if segment_index >= aurora.segments {
         return;
     }
     let south = number % poles == 1u;
-    let red = id.x % room > aurora.chords;
+    let red = id.x % capacity > aurora.chords;
     let kind = select(GREEN, RED, red);
-    let end = id.x % room - select(0u, aurora.chords + 1u, red);
+    let end = id.x % capacity - select(0u, aurora.chords + 1u, red);
     let height = chord_height(kind, end, chords_of(kind));
     let segment = segments[segment_index];
     let middle = middle_of(segment, aurora.ahead + mean_wait(kind, height));
@@ -41,7 +41,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var valid = true;
     for (var k = 0u; k < 4u; k++) {
         let aside = select(select(select(vec3<f32>(0.0), axes[0], k == 1u), axes[1], k == 2u), axes[2], k == 3u) * ASIDE;
-        let found = answer(instance, query_body(body + aside), order);
+        let found = project_point(instance, body_input(body + aside), order);
         seen = select(seen, found.ray.apparent, k == 0u);
         left[k] = found.by_axis;
         // The direction from which it comes, times its path.
@@ -73,5 +73,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     reference.arriving = arriving[0];
     reference.by_across = (across_sum * squares.z - along_sum * squares.y) / determinant;
     reference.by_along = (along_sum * squares.x - across_sum * squares.y) / determinant;
-    references[id.y * aurora.segments * poles * room + id.x] = reference;
+    references[id.y * aurora.segments * poles * capacity + id.x] = reference;
 }

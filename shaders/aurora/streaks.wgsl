@@ -20,8 +20,8 @@ struct AuroraSettings {
     newest_row: u32,
     /// Parts of curtains.
     segments: u32,
-    /// Room for strokes of one instance in the two finest levels (see room_of).
-    room: u32,
+    /// Room for strokes of one instance in the two finest levels (see allocate_stroke).
+    capacity: u32,
     /// AURORA_*.
     flags: u32,
     /// Seconds between rows.
@@ -84,7 +84,7 @@ struct Reference {
     is_seen: u32,
     /// Apparent place, camera axes, in r_s.
     apparent: vec3<f32>,
-    /// Where its light left, by the axis of hole and camera (Answer.by_axis), in r_s.
+    /// Where its light left, by the axis of hole and camera (ProjectedPoint.by_axis), in r_s.
     left: vec3<f32>,
     /// The change of `left` per km in two directions across the field and in one along it (across_field).
     east: vec3<f32>,
@@ -179,14 +179,14 @@ fn chord_at(kind: u32, height: f32, count: u32) -> u32 {
 }
 
 /// Number of ends of chords at which a part of a curtain is projected: first those of green, then those of red.
-fn reference_room() -> u32 {
+fn reference_capacity() -> u32 {
     return 3u * aurora.chords + 2u;
 }
 
 /// Index of the first of them for a part, in the north or in the south, in one instance.
 fn first_reference(segment: u32, south: bool, instance: u32) -> u32 {
     let poles = select(1u, 2u, (aurora.flags & AURORA_BOTH_POLES) != 0u);
-    return ((instance * aurora.segments + segment) * poles + select(0u, 1u, south)) * reference_room();
+    return ((instance * aurora.segments + segment) * poles + select(0u, 1u, south)) * reference_capacity();
 }
 
 /// How an end of a chord is seen: 0 not at all, 1 well, 2 to 3 on the ring that the axis behind the hole is drawn out to: then the fraction

@@ -2,7 +2,7 @@
 // ends of a chord the apparent position is linear in height, so a step is a few products and one reciprocal. (Sekiguchi et al. step
 // linearly on the screen itself, which is right from the side and wrong from below; AURORA_LINEAR does so.)
 
-#import lensrunner::aurora::rooms::{light_up, room_of}
+#import lensrunner::aurora::capacities::{allocate_stroke, light_up}
 #import lensrunner::aurora::streaks::{
     aurora, AURORA_LINEAR, chord_at, chord_height, chord_room, chords, chords_of, fall_at, height_of, height_range, is_chord, photons_of,
     ranges, segments, Streak, streak_of, strokes,
@@ -348,14 +348,14 @@ fn draw_stroke(order: u32, line: Line, seen: Seen, photons: vec4<f32>) -> bool {
     if !(light.x + light.y + light.z + light.w > FAINTEST) {
         return true;
     }
-    let room = room_of(order, &level);
-    if room == 0xffffffffu {
+    let slot = allocate_stroke(order, &level);
+    if slot == 0xffffffffu {
         return false;
     }
     light_up(order, around, frame.size, level == 0u);
     let half = shape.half * 2.0 / frame.size;
     let side = shape.side * 2.0 / frame.size;
-    strokes[room / CORNERS] = Stroke(middle, half, side, depth, shape.stretch / (2.0 * shape.blurred), pack2x16float(light.xy),
+    strokes[slot / CORNERS] = Stroke(middle, half, side, depth, shape.stretch / (2.0 * shape.blurred), pack2x16float(light.xy),
         pack2x16float(light.zw));
     return true;
 }

@@ -11,9 +11,9 @@
 @group(1) @binding(4) var chunk_table: texture_2d<u32>;
 // Seven storage buffers and the arguments make eight: WebGPU guarantees no more to a stage.
 @group(1) @binding(5) var<storage, read_write> seen: array<SeenVertex>;
-/// First of each model vertex (from `ids.z` of its instance on) the position at emission by the axis, as `Answer.by_axis`; w: VERTEX_*.
-/// Then of each model edge (from `ids.w` on) x: level (bits of a u32), y: EDGE_* (bits of a u32), z: where the axis cuts, as a fraction,
-/// w: error in radians.
+/// First of each model vertex (from `ids.z` of its instance on) the position at emission by the axis, as `ProjectedPoint.by_axis`; w:
+/// VERTEX_*. Then of each model edge (from `ids.w` on) x: level (bits of a u32), y: EDGE_* (bits of a u32), z: where the axis cuts, as a
+/// fraction, w: error in radians.
 @group(1) @binding(6) var<storage, read_write> states: array<vec4<f32>>;
 /// Two queues of `capacity.z` pieces each: one is split into the other.
 @group(1) @binding(7) var<storage, read_write> pieces: array<Piece>;

@@ -7,10 +7,10 @@
 }
 #import lensrunner::geometry::clip::pixel_fineness
 #import lensrunner::geometry::patch::{
-    angle_between, axis_core, axis_matters, BLOCK, edge_error, level_for, limb_strictness, most_segments, most_turn, MUST_SPLIT, offset_of,
-    on_limb, query_fan, ring_strictness, ring_tangent, slack_of, slimness, strictness, turn_about_axis, uneven_sag,
+    angle_between, axis_core, axis_matters, BLOCK, edge_error, fan_input, level_for, limb_strictness, most_segments, most_turn, MUST_SPLIT,
+    narrow_strictness, offset_of, on_limb, ring_strictness, ring_tangent, slack_of, strictness, turn_about_axis, uneven_sag,
 }
-#import lensrunner::geometry::project::{answer, query_body}
+#import lensrunner::geometry::project::{body_input, project_point}
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::{FLAG_INSIDE, Instance, is_thin}
 #import lensrunner::instances::instance::instance_at
@@ -129,9 +129,9 @@ fn is_short(instance: Instance, ends: Ends, closer: f32, seen_under: f32) -> boo
     let nearest = min(length(ends.a.xy), length(ends.b.xy));
     let least_radius = min(frame.camera_radius, ends.radius);
     let tide = 4.5 * edge_length * edge_length * length(ends.apparent_a) / (least_radius * least_radius * least_radius);
-    let quarter = 0.25 * frame.error_budget / (closer * slimness(instance));
+    let quarter = 0.25 * frame.error_budget / (closer * narrow_strictness(instance));
     let straight = select(0.0625, min(0.0625, 8.0 * quarter), axis_matters(ends.a.z, instance.order) && !is_thin(instance));
-    let small = (!ends.limb && seen_under < 8.0 * frame.pixel / fineness * inverseSqrt(slimness(instance)))
+    let small = (!ends.limb && seen_under < 8.0 * frame.pixel / fineness * inverseSqrt(narrow_strictness(instance)))
         || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
     return seen_under < 2.0 * frame.error_budget / fineness || (small && edge_length * edge_length < straight * nearest * nearest);
 }
@@ -147,11 +147,11 @@ fn bend(instance: Instance, ends: Ends, radial: bool) -> f32 {
     var whole = true;
     for (var k = select(1u, 0u, radial); k < select(4u, 5u, radial); k++) {
         let t = f32(k) * 0.25;
-        var query = query_body(ends.body_a + (ends.body_b - ends.body_a) * t);
+        var input = body_input(ends.body_a + (ends.body_b - ends.body_a) * t);
         if radial {
-            query = query_fan(apex, outer, t);
+            input = fan_input(apex, outer, t);
         }
-        let found = answer(instance, query, instance.order).ray;
+        let found = project_point(instance, input, instance.order).ray;
         points[k] = found.apparent;
         if k == 2u && !radial {
             tangent = ring_tangent(found);

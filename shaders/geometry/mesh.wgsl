@@ -3,8 +3,8 @@
 #import lensrunner::geometry::bindings::{counters, indices, model_triangle, model_vertex, seen, work}
 #import lensrunner::geometry::clip::{finite_vector, pixel_fineness}
 #import lensrunner::geometry::emit::emit_thin
-#import lensrunner::geometry::patch::{ARC_SHARE, BLOCK, body_point, comes_first, facing_of, query_fan, seen_vertex}
-#import lensrunner::geometry::project::{Answer, answer, Query, query_body}
+#import lensrunner::geometry::patch::{ARC_SHARE, BLOCK, body_point, comes_first, facing_of, fan_input, seen_vertex}
+#import lensrunner::geometry::project::{body_input, project_point, ProjectedPoint, ProjectionInput}
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::{Instance, is_thin, ModelTriangle, PIECE_FAN, PIECE_STRIP, PIECE_TRIANGLE, SeenVertex, WorkItem}
 #import lensrunner::instances::bounds::leaves_bounds
@@ -38,10 +38,10 @@ fn axis_is_outside(height: f32, order: u32) -> bool {
 /// order sag over those of the inner; those of the inner are moved by more than they sag. Near the ring an image moves by half of what its
 /// source does, that of the third order by a twentieth. Thin images are sums of areas and would become too bright. `apparent` is where the
 /// fan's outer point is seen: arcs are cut by the budget there.
-fn past_axis(instance: Instance, query: Query, apparent: vec3<f32>) -> f32 {
+fn past_axis(instance: Instance, input: ProjectionInput, apparent: vec3<f32>) -> f32 {
     let budget = frame.error_budget / pixel_fineness(apparent, apparent);
-    let past = 4.0 * ARC_SHARE * budget * abs(query.along) * select(1.0, 10.0, instance.order == 3u);
-    return select(0.0, past, axis_is_outside(query.height, instance.order) && !is_thin(instance));
+    let past = 4.0 * ARC_SHARE * budget * abs(input.along) * select(1.0, 10.0, instance.order == 3u);
+    return select(0.0, past, axis_is_outside(input.height, instance.order) && !is_thin(instance));
 }
 
 /// One thread per new vertex: evaluates the projection. Threads are not bound to work items, whose vertices are often few: a group that
@@ -235,23 +235,23 @@ fn vertex_at(item: WorkItem, instance: Instance, triangle: ModelTriangle, point:
     let body = body_point(instance, triangle, point);
     var apex = 0.0;
     var apex_height = 0.0;
-    var found: Answer;
+    var found: ProjectedPoint;
     var attitude = vec4<f32>(0.0);
     var count = select(3u, 2u, s == 1.0);
     for (var k = select(0u, 1u, s == 1.0); k < count; k++) {
-        var query = query_body(body);
+        var input = body_input(body);
         if k == 0u {
-            query = query_body(body_point(instance, triangle, item.piece.corner_a));
+            input = body_input(body_point(instance, triangle, item.piece.corner_a));
         } else if k == 2u {
-            query = query_fan(apex, found.by_axis, s);
-            query.height = mix(apex_height, dot(found.position, frame.outward), s);
-            let past = past_axis(instance, query, found.ray.apparent);
-            if query.across < past {
+            input = fan_input(apex, found.by_axis, s);
+            input.height = mix(apex_height, dot(found.position, frame.outward), s);
+            let past = past_axis(instance, input, found.ray.apparent);
+            if input.across < past {
                 fan_place = select(s, -min(past / max(length(found.by_axis.xy), 1e-9), 0.5), s == 0.0);
-                query.across = -past;
+                input.across = -past;
             }
         }
-        let next = answer(instance, query, instance.order);
+        let next = project_point(instance, input, instance.order);
         if k == 0u {
             apex = next.by_axis.z;
             apex_height = dot(next.position, frame.outward);
@@ -261,7 +261,7 @@ fn vertex_at(item: WorkItem, instance: Instance, triangle: ModelTriangle, point:
         }
         if k == 1u && s == 1.0 {
             let height = dot(found.position, frame.outward);
-            let here = Query(body, true, found.by_axis.z, length(found.by_axis.xy), height, vec3<f32>(0.0));
+            let here = ProjectionInput(body, true, found.by_axis.z, length(found.by_axis.xy), height, vec3<f32>(0.0));
             count = select(2u, 3u, found.ray.valid && here.across < past_axis(instance, here, found.ray.apparent));
         }
     }

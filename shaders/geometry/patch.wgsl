@@ -2,18 +2,18 @@
 
 // What the stages after the vertices share: the axis, the error of an edge, points of a patch.
 
-#import lensrunner::chosen::held::held_momentum
+#import lensrunner::chosen::static_body::static_body_momentum
 #import lensrunner::chosen::worldlines::turning_slack
 #import lensrunner::geometry::bindings::model_position
 #import lensrunner::geometry::clip::pixel_fineness
-#import lensrunner::geometry::project::{Answer, frequency_ratio, leaving_direction, Query, side_towards, Sight}
+#import lensrunner::geometry::project::{frequency_ratio, leaving_direction, ProjectedPoint, ProjectionInput, side_towards, Sight}
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::{
-    FLAG_MIDPOINT, Instance, INSTANCE_HELD, INSTANCE_NARROW, INSTANCE_THIN, is_thin, ModelTriangle, SeenVertex, SIDE_AGAINST, SIDE_LONE,
-    SIDE_OPEN, two_sided,
+    FLAG_MIDPOINT, Instance, INSTANCE_NARROW_RING, INSTANCE_STATIC, INSTANCE_THIN, is_thin, ModelTriangle, SeenVertex, SIDE_AGAINST,
+    SIDE_LONE, SIDE_OPEN, two_sided,
 }
 #import lensrunner::instances::instance::{normal_of, shaped}
-#import lensrunner::instances::swing::turned_by
+#import lensrunner::instances::local_motion::turned_by
 
 /// Deepest splitting. An edge that passes the axis at a millionth of its length takes a third of it (`halfway`), and not all edges are
 /// halved at the same time.
@@ -21,16 +21,16 @@ const DEEPEST: u32 = 24u;
 /// Cells of a block of the mesh stage; an edge that needs more segments is split.
 const BLOCK: u32 = 8u;
 
-/// The emitter's momentum and γ: the object's own, or for one that is held in place everywhere, that of what is held there.
+/// The emitter's momentum and γ: the object's own, or for a static body, that of a point of it there.
 fn momentum_at(instance: Instance, position: vec3<f32>) -> vec4<f32> {
-    if (instance.flags & INSTANCE_HELD) == 0u {
+    if (instance.flags & INSTANCE_STATIC) == 0u {
         return vec4<f32>(instance.momentum, instance.gamma);
     }
-    return held_momentum(position);
+    return static_body_momentum(position);
 }
 
 /// The seen vertex of a point that was found; `normal` and `attitude` are those of the body there.
-fn seen_vertex(instance: Instance, index: u32, found: Answer, attitude: vec4<f32>, normal: vec3<f32>, uv: vec2<f32>,
+fn seen_vertex(instance: Instance, index: u32, found: ProjectedPoint, attitude: vec4<f32>, normal: vec3<f32>, uv: vec2<f32>,
     material: u32) -> SeenVertex {
     let ray = found.ray;
     var vertex: SeenVertex;
@@ -57,7 +57,7 @@ fn axis_matters(along: f32, order: u32) -> bool {
     return frame.camera_radius + along < 0.0 || order >= 2u;
 }
 
-/// The offset from the camera, in rain axes, of a position by the axis (`Answer.by_axis`).
+/// The offset from the camera, in rain axes, of a position by the axis (`ProjectedPoint.by_axis`).
 fn offset_of(by_axis: vec3<f32>) -> vec3<f32> {
     return frame.side_a * by_axis.x + frame.side_b * by_axis.y + frame.outward * by_axis.z;
 }
@@ -86,9 +86,9 @@ fn meets_axis(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, order: u32) -> vec3<f32>
 
 /// The largest turn of an edge about the axis, in radians. An edge with a larger one is split, whatever its error. A triangle whose sides
 /// turn by less than a third of a circle does not reach across the ring, and with much smaller turns equal parts of an edge turn about
-/// equally. Thin and narrow images lie mostly near the ring, so their limit is smaller.
+/// equally. Thin images and narrow rings lie mostly near the ring, so their limit is smaller.
 fn most_turn(instance: Instance) -> f32 {
-    return select(0.5, 0.25, (instance.flags & (INSTANCE_THIN | INSTANCE_NARROW)) != 0u);
+    return select(0.5, 0.25, (instance.flags & (INSTANCE_THIN | INSTANCE_NARROW_RING)) != 0u);
 }
 
 /// The turn of an edge about the axis, in radians, from its ends as positions by the axis; 0 where the image does not end at the axis.
@@ -202,15 +202,15 @@ fn strictness(instance: Instance) -> f32 {
     return select(instance.strictness, 1.0, by_midpoint());
 }
 
-/// The same for slim images that are not thin: all their edges are near an outline and would bulge over it.
-fn slimness(instance: Instance) -> f32 {
+/// The same for narrow images that are not thin: all their edges are near an outline and would bulge over it.
+fn narrow_strictness(instance: Instance) -> f32 {
     return select(instance.strictness, 1.0, is_thin(instance));
 }
 
 /// Factor for outlines: there an error shows as surface where there is none.
 const LIMB_STRICTNESS: f32 = 9.0;
-/// The same for narrow images of higher orders, which are little more than outline, stretched along the ring.
-const NARROW_LIMB_STRICTNESS: f32 = 24.0;
+/// The same for narrow rings (images of orders 2 and 3), which are little more than outline, stretched along the ring.
+const NARROW_RING_LIMB_STRICTNESS: f32 = 24.0;
 
 /// The same for thin images, on top of their own factor: what counts is their area and that they are unbroken.
 const THIN_LIMB_STRICTNESS: f32 = 3.0;
@@ -220,17 +220,17 @@ fn limb_strictness(instance: Instance) -> f32 {
     if is_thin(instance) {
         return THIN_LIMB_STRICTNESS;
     }
-    let outline = select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS, (instance.flags & INSTANCE_NARROW) != 0u);
-    return select(max(outline / slimness(instance), 1.0), 1.0, by_midpoint());
+    let outline = select(LIMB_STRICTNESS, NARROW_RING_LIMB_STRICTNESS, (instance.flags & INSTANCE_NARROW_RING) != 0u);
+    return select(max(outline / narrow_strictness(instance), 1.0), 1.0, by_midpoint());
 }
 
 /// Factor for edges beside the axis: there the image of the order ends, and a chord that bulges farther than its distance from the ring
-/// shows surface beyond it. The strictness of slim images is divided out. `nearest` is the distance of the edge's ends from the axis,
+/// shows surface beyond it. The strictness of narrow images is divided out. `nearest` is the distance of the edge's ends from the axis,
 /// `pixel` what a pixel spans there, both in r_s.
 fn ring_strictness(instance: Instance, nearest: f32, pixel: f32, along: f32) -> f32 {
     let pixels_away = nearest / pixel;
     let closer = clamp(1.0 / max(pixels_away, 1e-6), 1.0, LIMB_STRICTNESS);
-    return select(1.0, max(closer / slimness(instance), 1.0), axis_matters(along, instance.order) && !by_midpoint());
+    return select(1.0, max(closer / narrow_strictness(instance), 1.0), axis_matters(along, instance.order) && !by_midpoint());
 }
 
 /// If light leaves a triangle under a sine below this, it may be seen edge on somewhere.
@@ -346,8 +346,8 @@ fn turned_away(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>, l
     let n = outward_normal(instance, triangle, offset);
     let most = max(dot(n, l0.xyz), max(dot(n, l1.xyz), dot(n, l2.xyz)));
     let spread = max(distance(l0.xyz, l1.xyz), max(distance(l1.xyz, l2.xyz), distance(l2.xyz, l0.xyz)));
-    // The crack between two bodies that abut is a small part of a pixel in a slim image.
-    let closed = (triangle.side & SIDE_LONE) != 0u || slimness(instance) > 1.0;
+    // The crack between two bodies that abut is a small part of a pixel in a narrow image.
+    let closed = (triangle.side & SIDE_LONE) != 0u || narrow_strictness(instance) > 1.0;
     return closed && min(l0.w, min(l1.w, l2.w)) > LEAST_RADIUS_TURNED && most < -(TURNED_AWAY + turning_slack(instance) + spread);
 }
 
@@ -410,9 +410,9 @@ fn edge_point(a: vec3<f32>, b: vec3<f32>, t: f32) -> vec3<f32> {
 /// A point of a fan round the axis. `outer` is a point of the outer edge, by the axis; `apex` is the position along the axis of the
 /// innermost point; `s` runs from the axis (0) to the edge (1). The azimuth is that of the outer point for every s, also on the axis
 /// itself.
-fn query_fan(apex: f32, outer: vec3<f32>, s: f32) -> Query {
+fn fan_input(apex: f32, outer: vec3<f32>, s: f32) -> ProjectionInput {
     let along = mix(apex, outer.z, s);
-    return Query(vec3<f32>(0.0), true, along, length(outer.xy) * s, frame.camera_radius + along, side_towards(outer.xy));
+    return ProjectionInput(vec3<f32>(0.0), true, along, length(outer.xy) * s, frame.camera_radius + along, side_towards(outer.xy));
 }
 
 /// An edge with a smaller turn about the axis, in radians, is halved in its middle.

@@ -1,9 +1,9 @@
 #define_import_path lensrunner::geometry::project
 
-// From a point of an object to where the camera sees it: `answer()`.
+// From a point of an object to where the camera sees it: `project_point()`.
 
 #import lensrunner::chosen::method::method_ray
-#import lensrunner::chosen::worldlines::{first_guess, swing_at}
+#import lensrunner::chosen::worldlines::{first_guess, local_motion_at}
 #import lensrunner::geometry::clip::least_pixel
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::{Instance, INSTANCE_MINUS}
@@ -72,7 +72,7 @@ fn leaving_direction(leaving: vec4<f32>, momentum: vec4<f32>) -> vec3<f32> {
 }
 
 /// What is to be projected: a body point, at its own emission time, or a fixed position.
-struct Query {
+struct ProjectionInput {
     body: vec3<f32>,
     fixed: bool,
     along: f32,
@@ -82,19 +82,19 @@ struct Query {
     side: vec3<f32>,
 }
 
-struct Answer {
+struct ProjectedPoint {
     ray: Sight,
     /// The position of emission by the axis of hole and camera. x, y: across it, along `side_a` and `side_b`; z: along it, from the camera
     /// outward.
     by_axis: vec3<f32>,
     /// The same position, from the hole.
     position: vec3<f32>,
-    /// `Swing.attitude` of a body point.
+    /// `MovedPoint.attitude` of a body point.
     attitude: vec4<f32>,
 }
 
-fn query_body(body: vec3<f32>) -> Query {
-    return Query(body, false, 0.0, 0.0, 0.0, vec3<f32>(0.0));
+fn body_input(body: vec3<f32>) -> ProjectionInput {
+    return ProjectionInput(body, false, 0.0, 0.0, 0.0, vec3<f32>(0.0));
 }
 
 /// Most steps of the search for the emission time. Newton's method squares the error, which starts as the share of c at which the object
@@ -108,13 +108,13 @@ const FARTHEST_BACK: f32 = 1e5;
 /// Before any time, and after all.
 const NEVER: f32 = 3e38;
 
-/// Projects a query: the ray from its point to the camera. For a body point it solves s + Δ(x(s)) = T − T₀. The left side increases
+/// Projects a point: the ray from it to the camera. For a body point it solves s + Δ(x(s)) = T − T₀. The left side increases
 /// strictly with s for light of E > 0 and decreases for E < 0, since no emitter outruns light. So there is one solution, between times that
 /// are too early and too late; Newton's steps are kept between them. The lookup is called from one place here, and a pass should call this
 /// function from one place: shader compilers copy functions into every call.
-fn answer(instance: Instance, query: Query, order: u32) -> Answer {
-    var result: Answer;
-    var s = first_guess(instance, query.body);
+fn project_point(instance: Instance, input: ProjectionInput, order: u32) -> ProjectedPoint {
+    var result: ProjectedPoint;
+    var s = first_guess(instance, input.body);
     // Known to be too early, and too late.
     var early = -NEVER;
     var late = NEVER;
@@ -123,30 +123,31 @@ fn answer(instance: Instance, query: Query, order: u32) -> Answer {
     let finest = least_pixel();
     let steps = select(0u, EMISSION_STEPS, moves);
     for (var i = 0u; i <= steps; i++) {
-        var along = query.along;
-        var across = query.across;
-        var height = query.height;
-        var side = query.side;
+        var along = input.along;
+        var across = input.across;
+        var height = input.height;
+        var side = input.side;
         var velocity = vec3<f32>(0.0);
-        if query.fixed {
+        if input.fixed {
             result.by_axis = vec3<f32>(dot(side, frame.side_a) * across, dot(side, frame.side_b) * across, along);
             result.position = frame.outward * height + side * across;
         } else {
-            let swing = swing_at(instance, query.body, s);
-            velocity = swing.velocity;
-            result.attitude = swing.attitude;
-            result.position = instance.position + swing.offset;
-            let beside = vec2<f32>(instance.across_a, instance.across_b) + vec2<f32>(dot(swing.offset, frame.side_a), dot(swing.offset, frame.side_b));
-            along = dot(instance.offset + swing.offset, frame.outward);
+            let moved = local_motion_at(instance, input.body, s);
+            velocity = moved.velocity;
+            result.attitude = moved.attitude;
+            result.position = instance.position + moved.offset;
+            let beside = vec2<f32>(instance.across_a, instance.across_b)
+                + vec2<f32>(dot(moved.offset, frame.side_a), dot(moved.offset, frame.side_b));
+            along = dot(instance.offset + moved.offset, frame.outward);
             across = length(beside);
             height = dot(result.position, frame.outward);
             side = side_towards(beside);
             result.by_axis = vec3<f32>(beside, along);
         }
-        // A moving point is seen by light of one age. A held point may be seen by light of two ages: its instance says which is meant.
+        // A moving point is seen by light of one age. A static point may be seen by light of two ages: its instance says which is meant.
         let elapsed = select(select(YOUNG, OLD, (instance.flags & INSTANCE_MINUS) != 0u), instance.delay - s, moves);
         result.ray = sight(along, across, height, side, order, elapsed);
-        if query.fixed || !moves {
+        if input.fixed || !moves {
             break;
         }
         if !result.ray.valid && i < steps {

@@ -7,11 +7,11 @@
 #import lensrunner::geometry::emit::{emit_piece, emit_work, hand_over, off_screen}
 #import lensrunner::geometry::patch::{
     angle_between, ARC_SHARE, axis_matters, AXIS_SHARE, BLOCK, BLURRED_TURN, body_point, CHORD_SHARE, comes_first, DEEPEST, edge_error,
-    edge_point, exact, halfway, is_blurred, is_lost, level_for, LIMB_SINE, limb_strictness, meets_axis, momentum_at, most_segments,
-    most_turn, MUST_SPLIT, part_between, plane_normal, query_fan, ring_strictness, ring_tangent, Slack, slack_of, strictness, turn_along,
-    turned_away, uneven_sag,
+    edge_point, exact, fan_input, halfway, is_blurred, is_lost, level_for, LIMB_SINE, limb_strictness, meets_axis, momentum_at,
+    most_segments, most_turn, MUST_SPLIT, part_between, plane_normal, ring_strictness, ring_tangent, Slack, slack_of, strictness,
+    turn_along, turned_away, uneven_sag,
 }
-#import lensrunner::geometry::project::{answer, leaving_direction, query_body}
+#import lensrunner::geometry::project::{body_input, leaving_direction, project_point}
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::{FLAG_INSIDE, Instance, is_thin, ModelTriangle, Piece, PIECE_FAN, PIECE_STRIP, PIECE_TRIANGLE}
 #import lensrunner::instances::instance::instance_at
@@ -142,18 +142,18 @@ fn measure(piece: Piece, instance: Instance, triangle: ModelTriangle) {
             let side = select((k - 3u) / 3u, 0u, fan);
             corner = quarter_point(corners[(side + 1u) % 3u], corners[(side + 2u) % 3u], (k - 3u) % 3u + 1u);
         }
-        var query = query_body(body_point(instance, triangle, corner));
+        var input = body_input(body_point(instance, triangle, corner));
         if fan && k >= 6u {
             let apex = by_axis[0].z;
             if k < 10u {
-                query = query_fan(apex, by_axis[1], f32(k - 6u) * 0.25);
+                input = fan_input(apex, by_axis[1], f32(k - 6u) * 0.25);
             } else if k < 14u {
-                query = query_fan(apex, by_axis[2], f32(k - 10u) * 0.25);
+                input = fan_input(apex, by_axis[2], f32(k - 10u) * 0.25);
             } else {
-                query = query_fan(apex, by_axis[3u + k - 14u], 0.0);
+                input = fan_input(apex, by_axis[3u + k - 14u], 0.0);
             }
         }
-        let found = answer(instance, query, instance.order);
+        let found = project_point(instance, input, instance.order);
         points[k] = found.ray.apparent;
         unseen = unseen || !found.ray.valid;
         if k < 3u {

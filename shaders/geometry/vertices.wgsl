@@ -5,7 +5,7 @@
 }
 #import lensrunner::geometry::clip::finite_vector
 #import lensrunner::geometry::patch::{axis_core, axis_matters, seen_vertex}
-#import lensrunner::geometry::project::{answer, query_body}
+#import lensrunner::geometry::project::{body_input, project_point}
 #import lensrunner::instances::instance::instance_at
 
 @compute @workgroup_size(64)
@@ -23,7 +23,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let vertex = model_vertex(instance.first_vertex + local);
     let order = instance.order;
     let slot = instance.first_seen + local;
-    let found = answer(instance, query_body(vertex.position.xyz), order);
+    let found = project_point(instance, body_input(vertex.position.xyz), order);
     let on_axis = length(found.by_axis.xy) < axis_core(instance, found.ray.apparent) && axis_matters(found.by_axis.z, order);
     let ray = found.ray;
     let ok = ray.valid && finite_vector(ray.apparent);

@@ -148,7 +148,7 @@ struct Instance {
     spin_slack: f32,
     /// Columns of the matrix from body offsets to offsets on the slice at T₀: size, attitude, contraction.
     shape_x: vec3<f32>,
-    /// How much closer chords of a slim image are held, else 1.
+    /// How much closer chords of a narrow image are held, else 1.
     strictness: f32,
     shape_y: vec3<f32>,
     /// What was recorded of the flight (instances/recorded.wgsl): time of the first node after T₀, in r_s/c.
@@ -203,16 +203,16 @@ struct Cap {
 /// Both sides of every triangle are drawn.
 const INSTANCE_TWO_SIDED: u32 = 1u;
 /// The object does not move; each of its points emits as a static observer there.
-const INSTANCE_HELD: u32 = 2u;
+const INSTANCE_STATIC: u32 = 2u;
 
-/// Its whole image of this order is narrow (`render.thin_below`).
+/// Its whole image of this order is thin (`render.thin_below`).
 const INSTANCE_THIN: u32 = 4u;
-/// The image of something held inside the horizon by light of E < 0.
+/// The image of a static body inside the horizon by light of E < 0.
 const INSTANCE_MINUS: u32 = 8u;
 /// The player's own ship, lit for the picture (`render.fill_least`).
 const INSTANCE_OWN: u32 = 32u;
 /// Its image, of a higher order, is a few pixels wide and drawn out along the ring: much of it is outline.
-const INSTANCE_NARROW: u32 = 16u;
+const INSTANCE_NARROW_RING: u32 = 16u;
 
 fn is_thin(instance: Instance) -> bool {
     return (instance.flags & INSTANCE_THIN) != 0u;

@@ -4,16 +4,16 @@
 
 #import lensrunner::gpu::types::Instance
 #import lensrunner::instances::instance::{normal_of, shaped}
-#import lensrunner::instances::swing::{carried, Swing}
+#import lensrunner::instances::local_motion::{carried, MovedPoint}
 
-/// The largest turn that is used, in radians: the polynomials of `swing_at` are right to 1.3 % there and to 1e-7 at half a radian.
+/// The largest turn that is used, in radians: the polynomials of `local_motion_at` are right to 1.3 % there and to 1e-7 at half a radian.
 const FARTHEST_TURN: f32 = 2.0;
 
 /// The body point `s` after the emission time T₀ of the centre.
-fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> Swing {
+fn local_motion_at(instance: Instance, body: vec3<f32>, s: f32) -> MovedPoint {
     let scale = instance.scale;
     if scale == 0.0 {
-        return Swing(shaped(instance, body), vec3<f32>(0.0), vec4<f32>(0.0));
+        return MovedPoint(shaped(instance, body), vec3<f32>(0.0), vec4<f32>(0.0));
     }
     let turn = instance.spin * s;
     let turned = turn * (FARTHEST_TURN / max(length(turn), FARTHEST_TURN));

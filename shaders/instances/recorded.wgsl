@@ -6,7 +6,7 @@
 
 #import lensrunner::gpu::types::Instance
 #import lensrunner::instances::instance::{instance_row, shaped}
-#import lensrunner::instances::swing::{carried, Swing, turned_by}
+#import lensrunner::instances::local_motion::{carried, MovedPoint, turned_by}
 
 /// Texels of a node.
 const NODE_TEXELS: u32 = 3u;
@@ -28,9 +28,9 @@ fn node_place(instance: Instance, s: f32) -> NodePlace {
 }
 
 /// The body point `s` after T₀, between two nodes: their attitudes, and how far they and their momenta are beside the smooth ones. Twin of
-/// the function of the same name in src/render/instances/swing.rs.
-fn swing_between(instance: Instance, body: vec3<f32>, s: f32, place: NodePlace, turns: mat2x4<f32>, asides: mat2x3<f32>,
-    pushes: mat2x3<f32>) -> Swing {
+/// the function of the same name in src/render/instances/local_motion.rs.
+fn local_motion_between(instance: Instance, body: vec3<f32>, s: f32, place: NodePlace, turns: mat2x4<f32>, asides: mat2x3<f32>,
+    pushes: mat2x3<f32>) -> MovedPoint {
     let mean = mix(turns[0], turns[1], place.share);
     let length_squared = dot(mean, mean);
     let q = mean * inverseSqrt(length_squared);
@@ -39,17 +39,17 @@ fn swing_between(instance: Instance, body: vec3<f32>, s: f32, place: NodePlace, 
     let change = turns[1] - turns[0];
     let rate = 2.0 * (change.xyz * mean.w - mean.xyz * change.w - cross(change.xyz, mean.xyz)) / length_squared;
     let per_time = instance.nodes_per_time * place.inside;
-    var swing = carried(instance, rest, cross(rate, rest) * per_time, s, mix(pushes[0], pushes[1], place.share));
-    swing.offset += mix(asides[0], asides[1], place.share);
-    swing.velocity += (asides[1] - asides[0]) * per_time;
-    swing.attitude = q;
-    return swing;
+    var moved = carried(instance, rest, cross(rate, rest) * per_time, s, mix(pushes[0], pushes[1], place.share));
+    moved.offset += mix(asides[0], asides[1], place.share);
+    moved.velocity += (asides[1] - asides[0]) * per_time;
+    moved.attitude = q;
+    return moved;
 }
 
 /// The body point `s` after the emission time T₀ of the centre.
-fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> Swing {
+fn local_motion_at(instance: Instance, body: vec3<f32>, s: f32) -> MovedPoint {
     if instance.scale == 0.0 {
-        return Swing(shaped(instance, body), vec3<f32>(0.0), vec4<f32>(0.0));
+        return MovedPoint(shaped(instance, body), vec3<f32>(0.0), vec4<f32>(0.0));
     }
     let place = node_place(instance, s);
     let first = instance.node_texel + NODE_TEXELS * place.index;
@@ -61,7 +61,7 @@ fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> Swing {
         asides = mat2x3<f32>(instance_row(first + 1u).xyz, instance_row(first + NODE_TEXELS + 1u).xyz);
         pushes = mat2x3<f32>(instance_row(first + 2u).xyz, instance_row(first + NODE_TEXELS + 2u).xyz);
     }
-    return swing_between(instance, body, s, place, turns, asides, pushes);
+    return local_motion_between(instance, body, s, place, turns, asides, pushes);
 }
 
 /// First guess of the emission time of a point, after T₀: nearly that of the centre.

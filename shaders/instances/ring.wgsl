@@ -5,7 +5,7 @@
 
 #import lensrunner::gpu::types::Instance
 #import lensrunner::instances::instance::instance_row
-#import lensrunner::instances::swing::Swing
+#import lensrunner::instances::local_motion::MovedPoint
 
 struct Ring {
     /// Radii of those rims of the disk that are this ring's, in r_s, or −1.
@@ -23,18 +23,18 @@ fn ring_of(instance: Instance) -> Ring {
 }
 
 /// The body point `s` after T₀; its offset is from the hole.
-fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> Swing {
+fn local_motion_at(instance: Instance, body: vec3<f32>, s: f32) -> MovedPoint {
     let ring = ring_of(instance);
     let angle = ring.azimuth + ring.rate * s;
     let c = cos(angle);
     let t = sin(angle);
     let position = vec3<f32>(c * body.x - t * body.y, t * body.x + c * body.y, 0.0);
-    return Swing(position, ring.rate * vec3<f32>(-position.y, position.x, 0.0), vec4<f32>(0.0));
+    return MovedPoint(position, ring.rate * vec3<f32>(-position.y, position.x, 0.0), vec4<f32>(0.0));
 }
 
 /// First guess of the emission time of a point, after T₀: by straight light from where it was at T₀.
 fn first_guess(instance: Instance, body: vec3<f32>) -> f32 {
-    return instance.delay - length(instance.offset + swing_at(instance, body, 0.0).offset);
+    return instance.delay - length(instance.offset + local_motion_at(instance, body, 0.0).offset);
 }
 
 /// As for bodies; no image of a flat ring depends on it.

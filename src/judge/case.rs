@@ -5,10 +5,10 @@ use std::time::{Duration, Instant};
 
 use glam::{DQuat, DVec3};
 
-use crate::judge::picture::post_process::PostProcess;
-use crate::judge::picture::shade::Shift;
-use crate::judge::picture::sky::{Background, stars};
-use crate::judge::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Surroundings, Sway, Thing, World, Worldline, picture};
+use crate::judge::picture::post_process::PostProcessSettings;
+use crate::judge::picture::shade::LightShift;
+use crate::judge::picture::sky::{SkyBackground, stars};
+use crate::judge::picture::{BodyMotion, Disk, Environment, Layer, Pose, Sampling, Sway, Thing, TracedPicture, World, Worldline, picture};
 use crate::judge::trace::PixelCamera;
 use crate::picture_file::PictureFileError;
 use crate::picture_file::moment::read_moment;
@@ -244,10 +244,10 @@ impl Case {
     /// The world as the judge sees it, the ships on these worldlines, in scene order.
     pub fn world<'a>(&'a self, ships: &[&'a dyn Worldline]) -> World<'a> {
         let lights = Lights::of(&self.scene, &self.config);
-        let flying = |index: usize| ships.get(index).map(|line| (Motion::Flying(*line), line.at(self.time).position));
+        let flying = |index: usize| ships.get(index).map(|line| (BodyMotion::Flying(*line), line.at(self.time).position));
         let things = self.assembly.objects.iter().enumerate().filter_map(|(number, object)| {
             let (motion, position) = match object.body {
-                Body::Held { position, attitude } => (Motion::Held { position, attitude }, position),
+                Body::Static { position, attitude } => (BodyMotion::Static { position, attitude }, position),
                 Body::Ship(index) if self.hidden == Some(index) => return None,
                 Body::Ship(index) => flying(index)?,
                 // After the ships and the ghost; no scene has any at its start.
@@ -255,7 +255,7 @@ impl Case {
                 Body::Ghost => return None,
                 Body::Planet => {
                     let planet: &dyn Worldline = self.scene.planet.as_ref()?;
-                    (Motion::Flying(planet), planet.at(self.time).position)
+                    (BodyMotion::Flying(planet), planet.at(self.time).position)
                 }
             };
             let light = lights.on(&object.body, position);
@@ -272,27 +272,27 @@ impl Case {
     }
 
     /// How light changes on its way.
-    pub fn shift(&self) -> Shift {
-        Shift { doppler: self.config.render.doppler, beaming: self.config.render.beaming }
+    pub fn shift(&self) -> LightShift {
+        LightShift { doppler: self.config.render.doppler, beaming: self.config.render.beaming }
     }
 
     /// The judge's picture, with the sky or without; `done` is told how many pixels have been finished.
-    pub fn trace(&self, quality: &Quality, with_sky: bool, done: &(dyn Fn(u64) + Sync)) -> Picture {
+    pub fn trace(&self, sampling: &Sampling, with_sky: bool, done: &(dyn Fn(u64) + Sync)) -> TracedPicture {
         let ships: Vec<&dyn Worldline> = self.histories.iter().map(|history| history as &dyn Worldline).collect();
-        self.trace_with(&ships, quality, with_sky, done)
+        self.trace_with(&ships, sampling, with_sky, done)
     }
 
     /// The same in `limit` seconds at most, if that is given; an error where it is not finished then.
     pub fn trace_within(
         &self,
-        quality: &Quality,
+        sampling: &Sampling,
         with_sky: bool,
         limit: Option<f64>,
         done: &(dyn Fn(u64) + Sync),
-    ) -> Result<Picture, OverTime> {
+    ) -> Result<TracedPicture, OverTime> {
         let ships: Vec<&dyn Worldline> = self.histories.iter().map(|history| history as &dyn Worldline).collect();
         let deadline = limit.and_then(|limit| Instant::now().checked_add(Duration::try_from_secs_f64(limit).ok()?));
-        let picture = self.trace_until(&ships, quality, with_sky, deadline, done);
+        let picture = self.trace_until(&ships, sampling, with_sky, deadline, done);
         match limit {
             Some(limit) if picture.missing > 0 => {
                 let all = picture.light.len() as u64;
@@ -306,39 +306,39 @@ impl Case {
     pub fn trace_with<'a>(
         &'a self,
         ships: &[&'a dyn Worldline],
-        quality: &Quality,
+        sampling: &Sampling,
         with_sky: bool,
         done: &(dyn Fn(u64) + Sync),
-    ) -> Picture {
-        self.trace_until(ships, quality, with_sky, None, done)
+    ) -> TracedPicture {
+        self.trace_until(ships, sampling, with_sky, None, done)
     }
 
     fn trace_until<'a>(
         &'a self,
         ships: &[&'a dyn Worldline],
-        quality: &Quality,
+        sampling: &Sampling,
         with_sky: bool,
         deadline: Option<Instant>,
         done: &(dyn Fn(u64) + Sync),
-    ) -> Picture {
+    ) -> TracedPicture {
         let sky = &self.scene.sky;
         let disk = self.scene.disk(&self.config).map(|disk| Disk::new(Gas::new(&disk, self.config.hole.mass_solar)));
         let (milky_way, _) = scene::sky::milky_way::load_or_dark();
         let brightness = if with_sky && sky.milky_way { self.config.sky.milky_way_brightness * sky.brightness } else { 0.0 };
-        let background = Background::new(&milky_way, brightness as f32);
+        let background = SkyBackground::new(&milky_way, brightness as f32);
         let spots = if with_sky && sky.stars {
             let (catalogue, _) = scene::sky::stars::load_or_stand_in();
             let brightness = self.config.sky.star_brightness * sky.brightness;
-            stars(&catalogue, &self.camera, self.config.render.lensing, quality.tolerance, brightness, self.shift())
+            stars(&catalogue, &self.camera, self.config.render.lensing, sampling.tolerance, brightness, self.shift())
         } else {
             Vec::new()
         };
-        let setting = Surroundings { background: &background, stars: &spots, disk: disk.as_ref(), shift: self.shift() };
+        let environment = Environment { background: &background, stars: &spots, disk: disk.as_ref(), shift: self.shift() };
         let mut world = self.world(ships);
         if let Some(deadline) = deadline {
             world.stop_at(deadline);
         }
-        picture(&world, &setting, &self.camera, quality, done)
+        picture(&world, &environment, &self.camera, sampling, done)
     }
 
     /// The point of its body that a pixel of a picture shows, in the body's axes and the model's unit; the origin where it shows none.
@@ -355,9 +355,9 @@ impl Case {
     }
 
     /// How the game makes a picture of light.
-    pub fn post_process(&self) -> PostProcess {
+    pub fn post_process(&self) -> PostProcessSettings {
         let render = &self.config.render;
-        PostProcess {
+        PostProcessSettings {
             bloom: render.bloom as f32,
             key: self.scene.disk(&self.config).map_or(render.exposure_key, |disk| disk.exposure_key) as f32,
             exposure_range: [render.exposure_min, render.exposure_max].map(|stops| stops.exp2() as f32),

@@ -24,5 +24,5 @@ mod taylor;
 pub mod to_file;
 pub mod trace;
 
-pub use ray::{End, Fate, Ray, RaySample, Stop, fate};
-pub use shoot::{Branch, Sighting, shoot, shoot_sky};
+pub use ray::{End, RayFate, RaySample, Stop, TracedRay, fate};
+pub use shoot::{EnergySign, Sighting, shoot, shoot_sky};

@@ -44,7 +44,7 @@ pub const MAX_STEPS: usize = 2000;
 
 /// The end of light followed backwards to where it came from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fate {
+pub enum RayFate {
     /// It shows the shadow.
     Captured,
     /// It came from the sky.
@@ -71,7 +71,7 @@ pub struct RaySample {
 
 /// A null geodesic followed from a camera backwards in time.
 #[derive(Clone, Debug)]
-pub struct Ray {
+pub struct TracedRay {
     /// The plane of the orbit: `axes[0]` points from the hole to the camera, `axes[1]` the way the ray sweeps.
     pub axes: [DVec3; 2],
     /// The steps, in order of delay.
@@ -82,20 +82,20 @@ pub struct Ray {
     pub end: End,
 }
 
-impl Ray {
+impl TracedRay {
     /// Follows the light seen in direction `look` (rain frame, any length but zero) by a camera at `position` (r_s from the hole,
     /// not zero) with a local error of `tolerance` in each step.
-    pub fn trace(position: DVec3, look: DVec3, tolerance: f64, stop: &Stop) -> Ray {
+    pub fn trace(position: DVec3, look: DVec3, tolerance: f64, stop: &Stop) -> TracedRay {
         let (axes, in_plane) = orbit_plane(position, look);
-        let mut ray = Ray::trace_in_plane(position.length(), in_plane, tolerance, stop);
+        let mut ray = TracedRay::trace_in_plane(position.length(), in_plane, tolerance, stop);
         ray.axes = axes;
         ray
     }
 
     /// The same in the plane of the orbit: the camera at (`radius`, 0), `look` in the rain frame with look.y ≥ 0.
-    pub fn trace_in_plane(radius: f64, look: DVec2, tolerance: f64, stop: &Stop) -> Ray {
+    pub fn trace_in_plane(radius: f64, look: DVec2, tolerance: f64, stop: &Stop) -> TracedRay {
         let mut follower = RayFollower::new(radius, look, tolerance, *stop);
-        let mut ray = Ray { axes: [DVec3::X, DVec3::Y], segments: Vec::with_capacity(32), swept: vec![0.0], end: End::Steps };
+        let mut ray = TracedRay { axes: [DVec3::X, DVec3::Y], segments: Vec::with_capacity(32), swept: vec![0.0], end: End::Steps };
         while let Some(segment) = follower.step() {
             ray.segments.push(segment);
             ray.swept.push(follower.swept);
@@ -256,11 +256,12 @@ fn is_escaping(r: f64, outwards: bool) -> bool {
 
 /// Where the light seen in direction `look` (rain frame) by a camera at `position` came from. The verdict is exact: a ray is
 /// followed until the sign of d²r forbids a return, never judged by a distance or a number of steps.
-pub fn fate(position: DVec3, look: DVec3, tolerance: f64) -> Fate {
-    let ray = Ray::trace(position, look, tolerance, &Stop { radius: sky_radius(position.length()), horizon_gap: 0.5, ..Stop::default() });
+pub fn fate(position: DVec3, look: DVec3, tolerance: f64) -> RayFate {
+    let ray =
+        TracedRay::trace(position, look, tolerance, &Stop { radius: sky_radius(position.length()), horizon_gap: 0.5, ..Stop::default() });
     match ray.sky_swept() {
-        Some(swept) => Fate::Escaped { direction: ray.embed(DVec2::from_angle(swept)), swept },
-        None => Fate::Captured,
+        Some(swept) => RayFate::Escaped { direction: ray.embed(DVec2::from_angle(swept)), swept },
+        None => RayFate::Captured,
     }
 }
 

@@ -5,11 +5,11 @@
 
 use glam::DVec2;
 
-use super::ray::{End, Ray, Stop, sky_radius};
+use super::ray::{End, Stop, TracedRay, sky_radius};
 
 /// The sign of the energy of the light; it matters only below the horizon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Branch {
+pub enum EnergySign {
     /// E > 0: light that came from outside, or could have.
     Plus,
     /// E < 0: only between two points below the horizon.
@@ -45,19 +45,19 @@ enum Found {
 /// How a camera at `camera` (r_s, > 0) sees the point at radius `r` (r_s), which lies `phi` (0 to π) around the hole, in the image
 /// of `order` (1: Φ = φ, 2: 2π − φ, 3: 2π + φ, and so on). `tolerance` is the local error of the integration; 1e-17 lets rounding
 /// rule. None where no such light exists: a point at or below the horizon seen from outside, or one below it too far around.
-pub fn shoot(r: f64, phi: f64, camera: f64, order: u32, branch: Branch, tolerance: f64) -> Option<Sighting> {
-    if camera >= 1.0 && (r <= 1.0 || branch == Branch::Minus) || branch == Branch::Minus && r >= 1.0 || camera < 1.0 && r <= camera {
+pub fn shoot(r: f64, phi: f64, camera: f64, order: u32, sign: EnergySign, tolerance: f64) -> Option<Sighting> {
+    if camera >= 1.0 && (r <= 1.0 || sign == EnergySign::Minus) || sign == EnergySign::Minus && r >= 1.0 || camera < 1.0 && r <= camera {
         return None;
     }
     let swept = swept_angle(order, phi);
     if swept == 0.0 {
-        return radial(r, camera, branch, tolerance);
+        return radial(r, camera, sign, tolerance);
     }
     // Only a ray that has come close to the horizon below half the target's height is given up: nearer ones lead the search.
     let stop =
         Stop { radius: 2.0 * r.max(1.0), swept, delay: f64::INFINITY, horizon_gap: (0.5 * (r - 1.0).abs()).max(1e-12), clings_until: 0.0 };
-    search(camera, branch, |cotangent| {
-        let ray = Ray::trace_in_plane(camera, look(cotangent), tolerance, &stop);
+    search(camera, sign, |cotangent| {
+        let ray = TracedRay::trace_in_plane(camera, look(cotangent), tolerance, &stop);
         match ray.end {
             End::Escaped => return Found::Above,
             // Seen from below, what clings to r = 1 is above every target there.
@@ -92,8 +92,8 @@ pub fn shoot_sky(phi: f64, camera: f64, order: u32, tolerance: f64) -> Option<Si
         return Some(seen(f64::NEG_INFINITY));
     }
     let stop = Stop { radius: sky_radius(camera), horizon_gap: 0.5, ..Stop::default() };
-    search(camera, Branch::Plus, |cotangent| {
-        let ray = Ray::trace_in_plane(camera, look(cotangent), tolerance, &stop);
+    search(camera, EnergySign::Plus, |cotangent| {
+        let ray = TracedRay::trace_in_plane(camera, look(cotangent), tolerance, &stop);
         match ray.sky_swept() {
             Some(found) => Found::Arrived(swept - found, seen(cotangent)),
             None => Found::Below,
@@ -120,14 +120,14 @@ fn sighting(cotangent: f64, camera: f64, delay: f64, emission: DVec2) -> Sightin
 }
 
 /// The light between two points on one radius.
-fn radial(r: f64, camera: f64, branch: Branch, tolerance: f64) -> Option<Sighting> {
-    let inwards = r < camera || branch == Branch::Minus;
+fn radial(r: f64, camera: f64, sign: EnergySign, tolerance: f64) -> Option<Sighting> {
+    let inwards = r < camera || sign == EnergySign::Minus;
     let cotangent = if inwards { f64::INFINITY } else { f64::NEG_INFINITY };
     if r == camera {
         return None;
     }
     let stop = Stop { radius: r, horizon_gap: 0.5 * (r - 1.0).abs(), ..Stop::default() };
-    let ray = Ray::trace_in_plane(camera, look(cotangent), tolerance, &stop);
+    let ray = TracedRay::trace_in_plane(camera, look(cotangent), tolerance, &stop);
     for segment in &ray.segments {
         let (from, to) = (segment.position(0.0).x - r, segment.position(segment.length).x - r);
         if from * to <= 0.0 {
@@ -140,15 +140,15 @@ fn radial(r: f64, camera: f64, branch: Branch, tolerance: f64) -> Option<Sightin
 }
 
 /// Finds the shot that hits: secants in cot ψ, kept inside a bracket; bisection in ln tan(ψ/2) while secants do not converge.
-fn search(camera: f64, branch: Branch, shoot: impl Fn(f64) -> Found) -> Option<Sighting> {
+fn search(camera: f64, sign: EnergySign, shoot: impl Fn(f64) -> Found) -> Option<Sighting> {
     // e^-50: closer to the radial direction than any point whose φ is not zero to rounding.
     const END: f64 = 50.0;
     // E = 0 where cos ψ = −√L: the sign of E changes there.
     let turn = if camera < 1.0 { (camera / (1.0 - camera)).sqrt().asinh() } else { END };
     // `high` is the end at which r is large.
-    let (mut high, mut low) = match branch {
-        Branch::Plus => (-END, turn),
-        Branch::Minus => (END, turn),
+    let (mut high, mut low) = match sign {
+        EnergySign::Plus => (-END, turn),
+        EnergySign::Minus => (END, turn),
     };
     // Below the horizon the orbit of E = 0 is the limit of both branches: what lies beneath it is not seen.
     if camera < 1.0 {

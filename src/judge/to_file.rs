@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::case::{Case, TraceError, TraceRequest};
 use crate::judge::picture::post_process::post_process;
-use crate::judge::picture::{Layer, Picture, Quality};
+use crate::judge::picture::{Layer, Sampling, TracedPicture};
 use crate::picture_file::{Channel, PictureFileError, check_writable, write_exr, write_png, write_png_with_text};
 use crate::scene::{self, GameConfig};
 
@@ -67,21 +67,21 @@ pub fn trace_case(case: &Case, request: &TraceRequest, output: &Output) -> Resul
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} pixels, {per_sec}, {eta} left") {
         bar.set_style(style);
     }
-    let told = std::sync::Mutex::new((0, 0));
+    let reported = std::sync::Mutex::new((0, 0));
     let done = |pixels: u64| {
         bar.inc(pixels);
         // Whoever holds it tells the rest.
-        let Some((tell, mut told)) = output.progress.zip(told.lock().ok()) else { return };
-        told.0 += pixels;
-        let hundredths = 100 * told.0 / all.max(1);
-        if hundredths > told.1 {
-            told.1 = hundredths;
-            tell(hundredths as f64 / 100.0);
+        let Some((report, mut reported)) = output.progress.zip(reported.lock().ok()) else { return };
+        reported.0 += pixels;
+        let hundredths = 100 * reported.0 / all.max(1);
+        if hundredths > reported.1 {
+            reported.1 = hundredths;
+            report(hundredths as f64 / 100.0);
         }
     };
     let started = Instant::now();
-    let quality = Quality { samples: side, tolerance: request.tolerance, packet: request.packet };
-    let picture = threads.install(|| case.trace_within(&quality, true, request.limit, &done));
+    let sampling = Sampling { samples: side, tolerance: request.tolerance, packet: request.packet };
+    let picture = threads.install(|| case.trace_within(&sampling, true, request.limit, &done));
     bar.finish_and_clear();
     let picture = picture?;
     if let Some(what) = picture.given_up_in_words() {
@@ -101,7 +101,7 @@ pub fn trace_case(case: &Case, request: &TraceRequest, output: &Output) -> Resul
 }
 
 /// The channels of a picture: light, and on request what the pixels show. Names are those of `shot --layers` where they mean the same.
-pub fn channels(picture: &Picture, layers: bool) -> Vec<Channel> {
+pub fn channels(picture: &TracedPicture, layers: bool) -> Vec<Channel> {
     let channel = |name: &'static str, data: Vec<f32>| Channel { name, data };
     let light = |k: usize| picture.light.iter().map(|rgb| rgb[k]).collect();
     let mut channels = vec![channel("R", light(0)), channel("G", light(1)), channel("B", light(2))];

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use rand::rngs::SmallRng;
 use rand::{RngExt, SeedableRng};
 
-use super::methods::Query;
+use super::methods::ProjectionInput;
 use crate::spacetime::light::Branch;
 
 /// Camera radii, r_s.
@@ -24,7 +24,7 @@ const EACH: usize = 100;
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
     /// r, φ, L.
-    pub query: Query,
+    pub input: ProjectionInput,
     /// The sign.
     pub branch: Branch,
 }
@@ -45,7 +45,7 @@ pub fn rows(count: usize, seed: u64) -> Vec<Row> {
 
 /// The rows of each camera.
 pub fn by_camera(rows: &[Row]) -> impl Iterator<Item = &[Row]> {
-    rows.chunk_by(|a, b| a.query.camera == b.query.camera)
+    rows.chunk_by(|a, b| a.input.camera == b.input.camera)
 }
 
 /// A row of a camera of its own.
@@ -76,7 +76,7 @@ fn row_of(rng: &mut SmallRng, camera: f64) -> Row {
         let inside = camera < 1.0 && r < 1.0 && r > 1e-3;
         if (inside || (POINTS[0]..=POINTS[1]).contains(&r)) && phi > 0.0 && distance >= LEAST_DISTANCE * camera {
             let branch = if inside { branch } else { Branch::Plus };
-            return Row { query: Query { r, phi, camera }, branch };
+            return Row { input: ProjectionInput { r, phi, camera }, branch };
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! The input is CSV with the header `r,phi,L` (r_s = 1, radians), the output CSV `r,phi,L,psi,delay,redshift` in the same order.
 
-use super::methods::{self, Projector, Query};
+use super::methods::{self, ProjectionInput, Projector};
 use crate::spacetime::light::{self, Branch, Order};
 use crate::user_file::short;
 use rayon::prelude::*;
@@ -216,20 +216,20 @@ impl RowReader {
 /// A row of the input: its fields as written and as numbers.
 struct InputRow<'a> {
     texts: [&'a str; 3],
-    query: Query,
+    input: ProjectionInput,
 }
 
 impl InputRow<'_> {
     fn answer(&self, method: &dyn Projector, request: ProjectRequest) -> String {
         let mut line = self.texts.join(",");
         // Integration with too few steps may end anywhere; light that would arrive before it left is none.
-        let sight = method.project(self.query, request.order, request.branch).filter(|sight| sight.delay > 0.0);
+        let sight = method.project(self.input, request.order, request.branch).filter(|sight| sight.delay > 0.0);
         let psi = sight.and_then(|sight| match request.frame {
             AngleFrame::Rain => Some(sight.psi_rain),
             AngleFrame::Static => sight.psi_static,
         });
         let delay = sight.map(|sight| sight.delay);
-        let redshift = sight.and_then(|_| light::static_redshift(1.0 / self.query.r, 1.0 / self.query.camera));
+        let redshift = sight.and_then(|_| light::static_redshift(1.0 / self.input.r, 1.0 / self.input.camera));
         for value in [psi, delay, redshift] {
             line.push(',');
             if let Some(value) = value {
@@ -251,13 +251,13 @@ fn parse_row(text: &str, line: usize) -> Result<InputRow<'_>, ProjectError> {
     };
     // 1/x must be a number too, or there is nothing to compute with.
     let radius = |x: f64| x > 0.0 && x.is_finite() && x.recip().is_normal();
-    let query = Query {
+    let input = ProjectionInput {
         r: number("r", r, "a finite radius greater than 0", radius)?,
         phi: number("phi", phi, "0 to π radians", |x| (-AXIS_CLEARANCE..=PI + AXIS_CLEARANCE).contains(&x))?
             .clamp(AXIS_CLEARANCE, PI - AXIS_CLEARANCE),
         camera: number("L", camera, "a finite radius greater than 0", radius)?,
     };
-    Ok(InputRow { texts: [r, phi, camera], query })
+    Ok(InputRow { texts: [r, phi, camera], input })
 }
 
 /// A number with twelve significant digits, in plain notation where that is short; empty if it is not finite.

@@ -7,7 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
 use super::lookup::{LensRay, OLD, YOUNG, lens_lookup_aged};
-use super::methods::Query;
+use super::methods::ProjectionInput;
 use super::table::slice::Slice;
 use super::table::{Scheme, Table};
 use super::{adversarial, paper};
@@ -27,7 +27,7 @@ pub fn draw(points: Points, rng: &mut SmallRng) -> [f64; 3] {
     loop {
         let ([r, phi, l], fits) = match points {
             Points::Adversarial => {
-                let Query { r, phi, camera } = adversarial::row(rng).query;
+                let ProjectionInput { r, phi, camera } = adversarial::row(rng).input;
                 ([r, phi, camera], r >= adversarial::POINTS[0])
             }
             Points::Friendly => friendly(rng),

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 /// How far a picture has come.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Progress {
+pub enum DevelopProgress {
     /// The share that is traced, 0 to 1.
     Traced(f64),
     /// The exact picture is in this file.
@@ -26,7 +26,7 @@ pub struct Developing(Arc<Mutex<State>>);
 
 #[derive(Debug)]
 struct State {
-    progress: Progress,
+    progress: DevelopProgress,
     child: Option<Child>,
 }
 
@@ -39,7 +39,7 @@ const PATIENCE: Duration = Duration::from_millis(20);
 fn with_own_program(start: impl FnOnce(&Path) -> Developing) -> Developing {
     match std::env::current_exe() {
         Ok(program) => start(&program),
-        Err(error) => Developing::of(Progress::Failed(format!("the program cannot be found: {error}"))),
+        Err(error) => Developing::of(DevelopProgress::Failed(format!("the program cannot be found: {error}"))),
     }
 }
 
@@ -69,7 +69,7 @@ impl Developing {
     }
 
     fn run(mut command: Command, output: &Path) -> Developing {
-        let developing = Developing::of(Progress::Traced(0.0));
+        let developing = Developing::of(DevelopProgress::Traced(0.0));
         let (state, output) = (developing.0.clone(), output.to_path_buf());
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         // Starting a program takes longer than a frame may.
@@ -77,27 +77,27 @@ impl Developing {
             let end = trace(&state, command, output);
             let mut state = locked(&state);
             state.child = None;
-            if state.progress != Progress::Cancelled {
+            if state.progress != DevelopProgress::Cancelled {
                 state.progress = end;
             }
         });
         developing
     }
 
-    fn of(progress: Progress) -> Developing {
+    fn of(progress: DevelopProgress) -> Developing {
         Developing(Arc::new(Mutex::new(State { progress, child: None })))
     }
 
     /// How far it has come.
-    pub fn progress(&self) -> Progress {
+    pub fn progress(&self) -> DevelopProgress {
         locked(&self.0).progress.clone()
     }
 
     /// Gives the picture up, unless it is done.
     pub fn cancel(&self) {
         let mut state = locked(&self.0);
-        if matches!(state.progress, Progress::Traced(_)) {
-            state.progress = Progress::Cancelled;
+        if matches!(state.progress, DevelopProgress::Traced(_)) {
+            state.progress = DevelopProgress::Cancelled;
             // One that has just ended cannot be killed, and need not be.
             _ = state.child.as_mut().map(Child::kill);
         }
@@ -115,15 +115,15 @@ fn locked(state: &Mutex<State>) -> MutexGuard<'_, State> {
 }
 
 /// Runs the tracer to its end.
-fn trace(state: &Mutex<State>, mut command: Command, output: PathBuf) -> Progress {
+fn trace(state: &Mutex<State>, mut command: Command, output: PathBuf) -> DevelopProgress {
     let mut child = match command.spawn() {
         Ok(child) => child,
-        Err(error) => return Progress::Failed(format!("the tracer cannot be started: {error}")),
+        Err(error) => return DevelopProgress::Failed(format!("the tracer cannot be started: {error}")),
     };
     let (said, complained) = (child.stdout.take(), child.stderr.take());
     {
         let mut state = locked(state);
-        if state.progress == Progress::Cancelled {
+        if state.progress == DevelopProgress::Cancelled {
             _ = child.kill();
         }
         state.child = Some(child);
@@ -133,8 +133,8 @@ fn trace(state: &Mutex<State>, mut command: Command, output: PathBuf) -> Progres
     for line in said.into_iter().flat_map(lines) {
         let share = line.strip_prefix("progress ").and_then(|share| share.parse::<f64>().ok());
         let mut state = locked(state);
-        if let (Some(share), Progress::Traced(_)) = (share.filter(|share| share.is_finite()), &state.progress) {
-            state.progress = Progress::Traced(share.clamp(0.0, 1.0));
+        if let (Some(share), DevelopProgress::Traced(_)) = (share.filter(|share| share.is_finite()), &state.progress) {
+            state.progress = DevelopProgress::Traced(share.clamp(0.0, 1.0));
         }
     }
     let complaint = complaint.join().ok().flatten();
@@ -148,9 +148,9 @@ fn trace(state: &Mutex<State>, mut command: Command, output: PathBuf) -> Progres
         }
     };
     match (status, complaint) {
-        (Some(status), _) if status.success() => Progress::Done(output),
-        (_, Some(complaint)) => Progress::Failed(complaint),
-        (status, None) => Progress::Failed(ended_badly(status)),
+        (Some(status), _) if status.success() => DevelopProgress::Done(output),
+        (_, Some(complaint)) => DevelopProgress::Failed(complaint),
+        (status, None) => DevelopProgress::Failed(ended_badly(status)),
     }
 }
 

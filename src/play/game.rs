@@ -1,14 +1,14 @@
-//! The game without its window: screens, keys, time, and the player's hands on the ship. Runs in a minimal app, for tests.
+//! The game without its window: screens, keys, time, and the player's commands to the ship. Runs in a minimal app, for tests.
 
 use crate::play::player_state::{Flown, PlayerState};
 use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
 
 use crate::scene::config;
-use crate::sim::hands::choose_pilot;
+use crate::sim::player_commands::choose_pilot;
 use crate::sim::replay::Playback;
 use crate::sim::ship::Player;
-use crate::sim::{Chase, Clock, Engine, Fleet, Hands, ShipMotion, SimSet, Turning, board, outcome, start};
+use crate::sim::{Chase, Clock, Engine, Fleet, PlayerCommands, ShipMotion, SimSet, Turning, board, outcome, start};
 use crate::spacetime::matter::gamma;
 
 use crate::play::camera::orbit::Orbit;
@@ -24,7 +24,7 @@ use crate::play::menus::screens::{MenuAction, Screen, answer};
 use crate::play::missions::{Catalogue, LastFlight, Watched, begin_log};
 use crate::play::pace::{PacePlugin, Slowing, run_time};
 use crate::play::photo::PhotoPlugin;
-use crate::play::picture::staging::change_scene;
+use crate::play::picture::stage_loading::change_scene;
 use crate::play::schedule::{self, GameSet};
 use crate::play::session::Session;
 use crate::play::window::record;
@@ -50,7 +50,7 @@ impl Plugin for GamePlugin {
             .add_systems(Startup, begin_title)
             .add_systems(
                 FixedUpdate,
-                (move_hands.run_if(not(resource_exists::<Playback>)), note_pilot).chain().in_set(SimSet::Input).before(choose_pilot),
+                (read_commands.run_if(not(resource_exists::<Playback>)), note_pilot).chain().in_set(SimSet::Input).before(choose_pilot),
             );
     }
 }
@@ -67,8 +67,8 @@ pub fn begin(world: &mut World, screen: Screen) {
     let ship = world.resource::<Fleet>().0[session.player()];
     world.entity_mut(ship).insert(Player);
     let mut player = world.resource_mut::<PlayerState>();
-    player.autopilot = screen != Screen::Playing || player.crew.is_some();
-    let crew = player.crew.filter(|_| screen == Screen::Playing);
+    player.autopilot = screen != Screen::Playing || player.pilot.is_some();
+    let pilot = player.pilot.filter(|_| screen == Screen::Playing);
     player.follower.reset();
     player.gaze = Gaze::default();
     player.orbit = Orbit::default();
@@ -76,8 +76,8 @@ pub fn begin(world: &mut World, screen: Screen) {
     player.assist = None;
     player.fired = false;
     *world.resource_mut::<MouseTurn>() = MouseTurn::default();
-    if let Some(crew) = crew {
-        board(world, crew);
+    if let Some(pilot) = pilot {
+        board(world, pilot);
     }
     begin_log(world, screen);
 }
@@ -113,7 +113,7 @@ fn choose_scene(world: &mut World, screen: Screen) {
 
 /// Keys that switch something.
 fn read_keys(
-    hands: PlayerInput,
+    input: PlayerInput,
     screen: Res<State<Screen>>,
     typing: Option<Res<EguiWantsInput>>,
     mut session: ResMut<Session>,
@@ -122,28 +122,28 @@ fn read_keys(
     mut commands: Commands,
 ) {
     let plays = *screen.get() == Screen::Playing;
-    if hands.pushed(Action::ToggleOverlay) {
+    if input.pushed(Action::ToggleOverlay) {
         player.overlay = !player.overlay;
     }
     let typing = typing.is_some_and(|typing| typing.wants_keyboard_input()) || menu.awaits.is_some();
-    player.looking = plays && !typing && hands.holds(Action::LookAtTarget);
-    player.fired |= plays && !typing && hands.pushed(Action::Fire);
+    player.looking = plays && !typing && input.holds(Action::LookAtTarget);
+    player.fired |= plays && !typing && input.pushed(Action::Fire);
     if typing {
         return;
     }
-    if hands.pushed(Action::Screenshot) {
+    if input.pushed(Action::Screenshot) {
         commands.queue(record::screenshot);
     }
     for (action, path) in [(Action::ToggleFullScreen, "video.fullscreen"), (Action::Mute, "sound.mute_master")] {
-        if hands.pushed(action) {
+        if input.pushed(action) {
             commands.queue(move |world: &mut World| toggle(world, path));
         }
     }
     let flown = matches!(screen.get(), Screen::Playing | Screen::Paused | Screen::Result);
-    if hands.pushed(Action::Restart) && flown && menu.page().is_none() {
+    if input.pushed(Action::Restart) && flown && menu.page().is_none() {
         actions.write(MenuAction::Start);
     }
-    if hands.pushed(Action::WhatAmISeeing) {
+    if input.pushed(Action::WhatAmISeeing) {
         match (screen.get(), menu.page()) {
             (_, Some(Page::Seeing)) => menu.touched.push(Touch::Back),
             (Screen::Playing, _) => {
@@ -161,28 +161,28 @@ fn read_keys(
     if !plays {
         return;
     }
-    if hands.pushed(Action::Pause) {
+    if input.pushed(Action::Pause) {
         actions.write(MenuAction::Pause);
     }
-    if hands.pushed(Action::PhotoMode) {
+    if input.pushed(Action::PhotoMode) {
         actions.write(MenuAction::Photo);
     }
-    if hands.pushed(Action::ToggleCamera) {
+    if input.pushed(Action::ToggleCamera) {
         player.view = player.view.toggled();
         player.follower.reset();
     }
-    if hands.pushed(Action::ToggleHud) {
+    if input.pushed(Action::ToggleHud) {
         player.hud_off = !player.hud_off;
     }
-    if hands.pushed(Action::ToggleAssist) {
+    if input.pushed(Action::ToggleAssist) {
         player.assist = Some(!player.assisted(&session.config));
     }
-    let begins = hands.stick().thrust != glam::DVec3::ZERO || hands.holds(Action::LookAtTarget) || hands.holds(Action::ToggleAutopilot);
-    player.begun |= player.crew.is_some() || begins;
-    if hands.pushed(Action::ToggleAutopilot) {
+    let begins = input.stick().thrust != glam::DVec3::ZERO || input.holds(Action::LookAtTarget) || input.holds(Action::ToggleAutopilot);
+    player.begun |= player.pilot.is_some() || begins;
+    if input.pushed(Action::ToggleAutopilot) {
         player.autopilot = !player.autopilot;
     }
-    let faster = f64::from(i8::from(hands.pushed(Action::Faster)) - i8::from(hands.pushed(Action::Slower)));
+    let faster = f64::from(i8::from(input.pushed(Action::Faster)) - i8::from(input.pushed(Action::Slower)));
     if faster != 0.0 {
         let pace = session.config.clock.pace * faster.exp2();
         session.config.clock.pace = pace.clamp(0.05, 24.0);
@@ -251,27 +251,27 @@ fn note_pilot(mut player: ResMut<PlayerState>) {
     player.flown.by_hand |= !autopilot;
 }
 
-/// What the player's hands do in this step.
-fn move_hands(
+/// The player's commands in this step.
+fn read_commands(
     input: PlayerInput,
     clock: Res<Clock>,
     (session, slowing): (Res<Session>, Res<Slowing>),
     mut player: ResMut<PlayerState>,
     mut turn: ResMut<MouseTurn>,
-    mut hands: ResMut<Hands>,
+    mut commands: ResMut<PlayerCommands>,
     ships: Query<(&ShipMotion, &Engine, &Turning), With<Player>>,
 ) {
     let mut stick = input.stick();
     for (motion, engine, turning) in &ships {
         stick.turn = turn.pull(stick.turn, engine, turning.0, clock.step / gamma(motion.0.momentum));
     }
-    *hands = Hands {
+    *commands = PlayerCommands {
         assist: player.assisted(&session.config),
         autopilot: player.autopilot,
         looking: player.looking,
         fire: std::mem::take(&mut player.fired) || input.holds(Action::Fire),
         pace: session.config.clock.pace * slowing.0,
-        ..Hands::holding(&stick)
+        ..PlayerCommands::holding(&stick)
     };
 }
 

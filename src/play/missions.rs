@@ -131,17 +131,17 @@ pub fn begin_log(world: &mut World, screen: Screen) {
     let session = world.resource::<Session>().clone();
     let ghost = ghost(world, &session);
     world.insert_resource(Ghost(ghost.unwrap_or_else(History::nobody)));
-    let crew = world.resource::<PlayerState>().crew.unwrap_or_default();
-    let begun = Replay::begin(&session.scene, &session.config, session.difficulty, crew, session.seed);
+    let pilot = world.resource::<PlayerState>().pilot.unwrap_or_default();
+    let begun = Replay::begin(&session.scene, &session.config, session.difficulty, pilot, session.seed);
     if screen != Screen::Playing {
         world.insert_resource(TitleFlight(begun));
         return;
     }
     if let Some(watched) = world.get_resource::<Watched>() {
         let playback = Playback::of(&watched.0);
-        let crew = watched.0.crew;
+        let pilot = watched.0.pilot;
         world.insert_resource(playback);
-        crate::sim::board(world, crew);
+        crate::sim::board(world, pilot);
     } else {
         world.insert_resource(ReplayLog(begun));
     }

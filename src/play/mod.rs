@@ -37,7 +37,7 @@ use std::time::Instant;
 
 use crate::argument::whole;
 use crate::render::Gpu;
-use crate::scene::crew::Crew;
+use crate::scene::pilot_kind::PilotKind;
 use crate::scene::{Difficulty, config};
 use crate::sim::replay::Replay;
 use crate::user_file::check_writable;
@@ -75,7 +75,7 @@ pub struct PlayArgs {
     pub autopilot: bool,
     /// Who flies the player's ship instead: naive, apprentice, expert, or hands, which throw it about.
     #[arg(long, value_name = "NAME", conflicts_with_all = ["autopilot", "replay"])]
-    pub pilot: Option<Crew>,
+    pub pilot: Option<PilotKind>,
     /// Renders the demonstration flight to PNG files, without a window.
     #[arg(long)]
     pub headless: bool,
@@ -109,7 +109,7 @@ pub fn warn_on_stderr() {
 }
 
 /// A line on standard output, if anybody still reads there.
-fn say(words: &str) {
+fn print_line(words: &str) {
     use std::io::Write;
     _ = writeln!(std::io::stdout(), "{words}");
 }
@@ -211,13 +211,13 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         (session.difficulty, session.seed) = (replay.difficulty, replay.seed);
     }
     if without_window && !args.headless && args.timings.is_none() {
-        say("There is no display that a window can be opened on: the demonstration flight is drawn to files instead.");
+        print_line("There is no display that a window can be opened on: the demonstration flight is drawn to files instead.");
     }
     if let (Some(path), None, None) = (&args.sound, &args.record, args.frames) {
         warn_on_stderr();
         return match demonstration::sound(&session, args.pilot.unwrap_or_default(), replay.as_ref(), path) {
             Ok(([from, to], end, seconds)) => {
-                say(&format!("The flight from T = {from:.1} to {to:.1} r_s/c: {end}.\nSound: {}, {seconds:.2} s.", path.display()));
+                print_line(&format!("The flight from T = {from:.1} to {to:.1} r_s/c: {end}.\nSound: {}, {seconds:.2} s.", path.display()));
                 ExitCode::SUCCESS
             }
             Err(error) => fail(&error, 1),
@@ -231,7 +231,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         // Bevy opens the adapter again; this one was to say in words what is missing.
         drop(gpu);
         let options = window::Options {
-            crew: args.pilot.or(args.autopilot.then_some(Crew::Expert)),
+            pilot: args.pilot.or(args.autopilot.then_some(PilotKind::Expert)),
             size: args.size,
             frames: args.frames,
             record: args.record.clone(),
@@ -255,14 +255,14 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         frames: args.frames.unwrap_or(demonstration::FRAMES),
         size: args.size.unwrap_or(demonstration::SIZE),
         folder: args.record.clone().unwrap_or_else(|| PathBuf::from("out")),
-        crew: args.pilot.unwrap_or_default(),
+        pilot: args.pilot.unwrap_or_default(),
         replay,
         sound: args.sound.clone(),
     };
     warn_on_stderr();
     match demonstration::fly(&gpu, &session, &flight) {
         Ok(report) => {
-            say(&report.to_string());
+            print_line(&report.to_string());
             ExitCode::SUCCESS
         }
         Err(error) => fail(&error, 1),

@@ -4,7 +4,7 @@ use crate::play::camera::orbit::Orbit;
 use crate::play::camera::{CameraView, Follower};
 use crate::play::input::gaze::Gaze;
 use crate::scene::GameConfig;
-use crate::scene::crew::Crew;
+use crate::scene::pilot_kind::PilotKind;
 use bevy::prelude::*;
 
 /// How the player plays: what is not in `game.toml`.
@@ -23,7 +23,7 @@ pub struct PlayerState {
     /// Who has flown in this chase.
     pub flown: Flown,
     /// Who flies instead of the player from the start, as asked for on the command line.
-    pub crew: Option<Crew>,
+    pub pilot: Option<PilotKind>,
     /// How the camera follows.
     pub follower: Follower,
     /// The player has thrust, looked at the target or let the autopilot fly, as the hint of the first flight says; or had time to read it.

@@ -128,7 +128,7 @@ impl Records {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::crew::Crew;
+    use crate::scene::pilot_kind::PilotKind;
     use crate::scene::{self, GameConfig};
 
     fn folder(name: &str) -> PathBuf {
@@ -139,7 +139,7 @@ mod tests {
 
     fn flight() -> Replay {
         let scene = scene::load("01-training").expect("a mission of the game");
-        Replay::begin(&scene, &GameConfig::default(), Difficulty::Easy, Crew::Expert, 1)
+        Replay::begin(&scene, &GameConfig::default(), Difficulty::Easy, PilotKind::Expert, 1)
     }
 
     #[test]

@@ -16,12 +16,12 @@ pub mod plugin;
 pub mod post_process;
 pub mod quality;
 pub mod renderer;
+mod renderer_loader;
 pub mod settings;
 pub mod shot;
 pub mod sky;
 pub mod stage;
 pub mod tables;
-mod workshop;
 
 pub use gpu::device::{DeviceError, Gpu};
 pub use renderer::Renderer;

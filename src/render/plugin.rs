@@ -23,7 +23,7 @@ use crate::render::frame::FrameInput;
 use crate::render::gpu::device::{Watch, missing_limits};
 use crate::render::gpu::types::Counters;
 use crate::render::renderer::{Renderer, SceneUpload, Surroundings};
-use crate::render::workshop::{Broken, Workshop};
+use crate::render::renderer_loader::{Broken, RendererLoader};
 
 /// Nearer than this, in r_s, a camera may soon be inside the horizon: seconds away for who falls, and none who circles is as near.
 const NEAR_THE_HORIZON: f64 = 3.0;
@@ -90,7 +90,7 @@ impl Plugin for RelativisticRenderPlugin {
             .init_resource::<SceneToDraw>()
             .init_resource::<PlannedView>()
             .add_systems(RenderStartup, make_renderer)
-            .add_systems(ExtractSchedule, (take_frame, exchange).chain().run_if(resource_exists::<Workshop>))
+            .add_systems(ExtractSchedule, (take_frame, exchange).chain().run_if(resource_exists::<RendererLoader>))
             .add_systems(
                 Render,
                 (
@@ -99,9 +99,12 @@ impl Plugin for RelativisticRenderPlugin {
                     prepare_resources.in_set(RenderSystems::PrepareResources),
                     prepare_bind_groups.in_set(RenderSystems::PrepareBindGroups),
                 )
-                    .run_if(resource_exists::<Workshop>),
+                    .run_if(resource_exists::<RendererLoader>),
             )
-            .add_systems(Core2d, draw.after(main_transparent_pass_2d).in_set(Core2dSystems::MainPass).run_if(resource_exists::<Workshop>));
+            .add_systems(
+                Core2d,
+                draw.after(main_transparent_pass_2d).in_set(Core2dSystems::MainPass).run_if(resource_exists::<RendererLoader>),
+            );
     }
 
     fn finish(&self, app: &mut App) {
@@ -153,7 +156,8 @@ fn make_renderer(
     }
     let gpu = Gpu { device: device.wgpu_device().clone(), queue: (**queue.0).clone(), adapter: (***info).clone(), watch: Watch::default() };
     let making = making.clone();
-    commands.insert_resource(Workshop::begin(move || Renderer::new(&gpu, making.wait(), wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1])));
+    commands
+        .insert_resource(RendererLoader::begin(move || Renderer::new(&gpu, making.wait(), wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1])));
 }
 
 fn take_frame(
@@ -167,18 +171,18 @@ fn take_frame(
 }
 
 /// Takes the renderer back from its thread, and says how it stands.
-fn exchange(mut main: ResMut<MainWorld>, mut workshop: ResMut<Workshop>, mut said: Local<bool>) {
-    if let Err(Broken) = workshop.collect()
+fn exchange(mut main: ResMut<MainWorld>, mut loader: ResMut<RendererLoader>, mut said: Local<bool>) {
+    if let Err(Broken) = loader.collect()
         && !std::mem::replace(&mut *said, true)
     {
         error!("the passes of the picture could not be compiled: the game ends");
         main.write_message(AppExit::error());
     }
-    let ready = workshop.ready().cloned();
+    let ready = loader.ready().cloned();
     if let Some(mut state) = main.get_resource_mut::<SceneReady>() {
         state.0 = ready;
     }
-    let (Some(mut statistics), Some(renderer)) = (main.get_resource_mut::<RenderStatistics>(), workshop.renderer()) else { return };
+    let (Some(mut statistics), Some(renderer)) = (main.get_resource_mut::<RenderStatistics>(), loader.renderer()) else { return };
     renderer.set_counting(statistics.counting);
     statistics.passes.clear();
     statistics.passes.extend_from_slice(renderer.timing().latest());
@@ -187,9 +191,9 @@ fn exchange(mut main: ResMut<MainWorld>, mut workshop: ResMut<Workshop>, mut sai
     (statistics.counters, statistics.disk) = renderer.latest_counters();
 }
 
-fn put_scene(scene: Res<SceneToDraw>, mut workshop: ResMut<Workshop>) {
+fn put_scene(scene: Res<SceneToDraw>, mut loader: ResMut<RendererLoader>) {
     if let Some(upload) = &scene.0 {
-        workshop.put(upload);
+        loader.put(upload);
     }
 }
 
@@ -197,15 +201,15 @@ fn put_scene(scene: Res<SceneToDraw>, mut workshop: ResMut<Workshop>) {
 fn plan_frame(
     (cameras, views): (Res<SortedCameras>, Query<&ViewTarget, With<Camera2d>>),
     (frame, scene): (Res<FrameToDraw>, Res<SceneToDraw>),
-    mut workshop: ResMut<Workshop>,
+    mut loader: ResMut<RendererLoader>,
     mut planned: ResMut<PlannedView>,
 ) {
     planned.0 = None;
     let Some((view, target)) = cameras.0.iter().find_map(|camera| Some((camera.entity, views.get(camera.entity).ok()?))) else { return };
     let size = target.main_texture().size();
     // Until a scene is there, its frames name models that are not.
-    let is_there = scene.0.as_ref().is_some_and(|scene| workshop.ready().is_some_and(|ready| Arc::ptr_eq(ready, scene)));
-    let Some(renderer) = workshop.renderer() else { return };
+    let is_there = scene.0.as_ref().is_some_and(|scene| loader.ready().is_some_and(|ready| Arc::ptr_eq(ready, scene)));
+    let Some(renderer) = loader.renderer() else { return };
     let Some(input) = frame.0.as_ref().filter(|_| is_there && size.width > 0 && size.height > 0) else {
         renderer.nothing_shown();
         return;
@@ -219,24 +223,24 @@ fn plan_frame(
     }
 }
 
-fn prepare_resources(planned: Res<PlannedView>, frame: Res<FrameToDraw>, mut workshop: ResMut<Workshop>) {
-    let (Some(_), Some(input), Some(renderer)) = (planned.0, &frame.0, workshop.renderer()) else { return };
+fn prepare_resources(planned: Res<PlannedView>, frame: Res<FrameToDraw>, mut loader: ResMut<RendererLoader>) {
+    let (Some(_), Some(input), Some(renderer)) = (planned.0, &frame.0, loader.renderer()) else { return };
     if input.camera.radius() < NEAR_THE_HORIZON {
         renderer.precompile_the_inside();
     }
     renderer.prepare_resources(input);
 }
 
-fn prepare_bind_groups(planned: Res<PlannedView>, mut workshop: ResMut<Workshop>) {
-    if let (Some(_), Some(renderer)) = (planned.0, workshop.renderer()) {
+fn prepare_bind_groups(planned: Res<PlannedView>, mut loader: ResMut<RendererLoader>) {
+    if let (Some(_), Some(renderer)) = (planned.0, loader.renderer()) {
         renderer.prepare_bind_groups();
     }
 }
 
 /// Records the passes of the frame that is prepared for this view. [`RenderDiagnosticsPlugin`](bevy::render::diagnostic::RenderDiagnosticsPlugin)
 /// gets their time together.
-fn draw(view: ViewQuery<&ViewTarget>, planned: Res<PlannedView>, mut workshop: ResMut<Workshop>, mut context: RenderContext) {
-    let Some(renderer) = workshop.renderer().filter(|_| planned.0 == Some(view.entity())) else { return };
+fn draw(view: ViewQuery<&ViewTarget>, planned: Res<PlannedView>, mut loader: ResMut<RendererLoader>, mut context: RenderContext) {
+    let Some(renderer) = loader.renderer().filter(|_| planned.0 == Some(view.entity())) else { return };
     let diagnostics = context.diagnostic_recorder();
     let diagnostics = diagnostics.as_deref();
     let span = diagnostics.time_span(context.command_encoder(), "relativistic");

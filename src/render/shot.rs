@@ -14,7 +14,7 @@ pub use crate::sim::Moment;
 use crate::sim::snapshot::Snapshot;
 
 use crate::render::frame::FrameInput;
-use crate::render::gpu::readback::{Picture, PictureError};
+use crate::render::gpu::readback::{PictureError, ReadbackPicture};
 use crate::render::gpu::types::Star;
 use crate::render::renderer::{Renderer, Surroundings};
 use crate::render::settings::Settings;
@@ -90,7 +90,7 @@ fn star(star: &scene::sky::stars::Star) -> Star {
 }
 
 /// Draws the picture.
-pub fn shot(request: &ShotRequest, config: &GameConfig) -> Result<Picture, ShotError> {
+pub fn shot(request: &ShotRequest, config: &GameConfig) -> Result<ReadbackPicture, ShotError> {
     if !(0.0..=1e5).contains(&request.at) {
         return Err(ShotError::Time(request.at));
     }
@@ -109,7 +109,7 @@ pub fn shot(request: &ShotRequest, config: &GameConfig) -> Result<Picture, ShotE
 
 /// Draws the moment of a picture of the game again, in `size` pixels. `fill`: the player's ship is lit as the game does it; not so where
 /// light itself is asked for. The eye has adapted; the ghost of an earlier flight is left out, and an aurora is as after no frames before.
-pub fn shot_again(snapshot: &Snapshot, moment: &Moment, size: [u32; 2], layers: bool, fill: bool) -> Result<Picture, ShotError> {
+pub fn shot_again(snapshot: &Snapshot, moment: &Moment, size: [u32; 2], layers: bool, fill: bool) -> Result<ReadbackPicture, ShotError> {
     let (config, shot) = (snapshot.config(), &snapshot.shot);
     let gpu = Gpu::headless()?;
     let mut renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
@@ -121,7 +121,7 @@ pub fn shot_again(snapshot: &Snapshot, moment: &Moment, size: [u32; 2], layers: 
 }
 
 /// The picture; what it lacks is said in the log.
-fn complete(renderer: &mut Renderer, frame: &FrameInput, layers: bool) -> Result<Picture, ShotError> {
+fn complete(renderer: &mut Renderer, frame: &FrameInput, layers: bool) -> Result<ReadbackPicture, ShotError> {
     let picture = renderer.picture(frame, layers)?;
     if let Some(complaint) = renderer.counters()?.complaint() {
         warn!("the picture is not complete: {complaint}");

@@ -19,14 +19,14 @@ use crate::spacetime::orbit::static_momentum;
 use crate::lensing::methods::{self, flat};
 use crate::render::Renderer;
 use crate::render::aurora::{AuroraAnimation, AuroraFrame, planet_history};
-use crate::render::disk::Disk;
+use crate::render::disk::DrawnDisk;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::types::placed::OWN;
-use crate::render::instances::{DrawnObject, Motion, Placed, StandIn, View, instances_of};
+use crate::render::instances::{DrawnObject, InstanceView, ObjectMotion, Placed, StandIn, instances_of};
 use crate::render::models::coarse::stand_ins;
 use crate::render::models::{ModelRange, ModelSet};
 use crate::render::post_process::upscale::drawn_size;
-use crate::render::quality::prices::SceneClass;
+use crate::render::quality::costs::SceneClass;
 use crate::render::renderer::SceneUpload;
 use crate::render::settings::Settings;
 
@@ -115,7 +115,7 @@ impl Stage {
             (object, range)
         });
         let disk = scene.disk(config);
-        let upload = SceneUpload { models, disk: disk.clone().map(|disk| Disk::new(disk, config)), rehearsal: Vec::new() };
+        let upload = SceneUpload { models, disk: disk.clone().map(|disk| DrawnDisk::new(disk, config)), rehearsal: Vec::new() };
         let disk = disk.map(|disk| [disk.inner, disk.outer]);
         let stage = Stage {
             objects: objects.collect(),
@@ -185,7 +185,7 @@ impl Stage {
         let size = drawn_size(size, settings.resolution);
         let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(size[0].max(1));
         let aspect = Some(f64::from(size[1].max(1)) / f64::from(size[0].max(1)));
-        let view = View { camera: &camera, slice: &slice, pixel, aspect, settings };
+        let view = InstanceView { camera: &camera, slice: &slice, pixel, aspect, settings };
         // Light of the higher orders goes once round the hole.
         let back = self.planet.as_ref().map_or(0.0, |planet| 1.5 * (camera.radius() + planet.orbit.semi_latus_rectum) + 60.0);
         let globe = self.planet.as_ref().and_then(|planet| planet_history(planet, time, back, DQuat::IDENTITY));
@@ -230,7 +230,7 @@ impl Stage {
     /// The worldline of a body that flies.
     fn worldline<'a>(&self, body: &Body, histories: &[&'a History], globe: Option<&'a History>) -> Option<&'a History> {
         match *body {
-            Body::Held { .. } => None,
+            Body::Static { .. } => None,
             Body::Ship(index) if index < self.engines.len() => histories.get(index).copied(),
             Body::Ship(_) => None,
             Body::Ghost => histories.get(self.engines.len()).copied(),
@@ -240,7 +240,7 @@ impl Stage {
     }
 
     /// The planet's aurora at T = `time`, if it has one and that is seen; light comes from `back` r_s/c before at most.
-    fn aurora(&mut self, view: &View, time: f64, back: f64) -> Option<AuroraFrame> {
+    fn aurora(&mut self, view: &InstanceView, time: f64, back: f64) -> Option<AuroraFrame> {
         let mut aurora = self.animation.as_mut()?.frame(view, time, back, view.settings.orders)?;
         // Only the planet is lit by it.
         let globe = self.objects.iter().position(|(object, _)| object.body == Body::Planet);
@@ -264,10 +264,10 @@ impl Stage {
 }
 
 /// How a body moves, and where it is at T = `time`; None for one that flies if its worldline is not known.
-fn motion<'a>(body: &Body, time: f64, line: Option<&'a History>) -> Option<(Motion<'a>, DVec3)> {
+fn motion<'a>(body: &Body, time: f64, line: Option<&'a History>) -> Option<(ObjectMotion<'a>, DVec3)> {
     match *body {
-        Body::Held { position, attitude } => Some((Motion::Held { position, attitude }, position)),
-        Body::Ship(_) | Body::Planet | Body::Ghost | Body::Bolt(_) => line.map(|line| (Motion::Flying(line), line.at(time).position)),
+        Body::Static { position, attitude } => Some((ObjectMotion::Static { position, attitude }, position)),
+        Body::Ship(_) | Body::Planet | Body::Ghost | Body::Bolt(_) => line.map(|line| (ObjectMotion::Flying(line), line.at(time).position)),
     }
 }
 

@@ -40,8 +40,8 @@ pub struct Object {
 /// How a thing moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Body {
-    /// Held in place: the vertex v of the model is at position + attitude·(scale·v), whatever T. At rest in Schwarzschild's coordinates.
-    Held {
+    /// Static: the vertex v of the model is at position + attitude·(scale·v), whatever T. At rest in Schwarzschild's coordinates.
+    Static {
         /// In r_s.
         position: DVec3,
         /// Model axes to coordinate axes.
@@ -92,7 +92,7 @@ impl Scene {
                 }
             };
             for &position in &prop.positions {
-                let body = Body::Held { position, attitude: prop.attitude };
+                let body = Body::Static { position, attitude: prop.attitude };
                 assembly.objects.push(Object { name: prop.name.clone(), model, scale: prop.size, body });
             }
         }
@@ -121,7 +121,7 @@ impl Scene {
         if !mission.gates.is_empty() {
             let model = assembly.add(shapes::torus(48, 8, GATE_THICKNESS, glowing(GATE_LIGHT)));
             for (number, gate) in mission.gates.iter().enumerate() {
-                let body = Body::Held { position: gate.position, attitude: DQuat::from_rotation_arc(DVec3::Z, gate.normal) };
+                let body = Body::Static { position: gate.position, attitude: DQuat::from_rotation_arc(DVec3::Z, gate.normal) };
                 assembly.objects.push(Object { name: format!("gate {}", number + 1), model, scale: 2.0 * gate.radius, body });
             }
         }

@@ -18,10 +18,10 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::crew::Crew;
 use super::document::exactly_or_none;
 use super::document::fault::{Fault, fault, in_range};
 use super::mission::Difficulty;
+use super::pilot_kind::PilotKind;
 
 /// The words for how a flight ends: `sim::Outcome` by name, and "undecided".
 pub const OUTCOMES: [&str; 9] = ["caught", "hunter-lost", "quarry-lost", "time-out", "done", "taken", "ship-lost", "strayed", "undecided"];
@@ -30,7 +30,7 @@ pub const OUTCOMES: [&str; 9] = ["caught", "hunter-lost", "quarry-lost", "time-o
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Expect {
     /// At the player's ship.
-    pub crew: Crew,
+    pub pilot: PilotKind,
     /// Of a mission.
     pub difficulty: Difficulty,
     /// For everything left to chance.
@@ -112,7 +112,7 @@ pub fn check_expect(entry: &ExpectEntry, is_mission: bool) -> Result<Expect, Fau
         drift => drift.as_ref().map(|drift| *drift.get_ref()),
     };
     Ok(Expect {
-        crew: word(&entry.pilot)?,
+        pilot: word(&entry.pilot)?,
         difficulty: word(&entry.difficulty)?,
         seed: entry.seed,
         until: entry.until.as_ref().map(|until| in_range(until, "until", 0.0..=1e6, "r_s/c")).transpose()?,

@@ -1,5 +1,5 @@
 //! `lensrunner simulate SCENE --agent`: another program flies the player's ship. For each decision it gets a line of JSON, what is to be
-//! seen, and answers with a line of JSON, what the hands do (see `docs/missions.md`).
+//! seen, and answers with a line of JSON, the player's commands (see `docs/missions.md`).
 
 use std::io::{BufRead, Read as _, Write};
 
@@ -10,17 +10,17 @@ use serde::{Deserialize, Serialize};
 use super::assist::Stick;
 use super::bolts::Gun;
 use super::goals::{ActiveMission, Progress};
-use super::hands::Hands;
 use super::history::History;
 use super::pilot::rollout::Point;
+use super::player_commands::PlayerCommands;
 use super::replay::{Replay, ReplayLog};
 use super::ship::{Engine, Fleet, Fuel, Player, Ship, ShipMotion};
 use super::sight::apparition;
 use super::simulate::SimulateError;
 use super::{ChaseRules, Clock, app_of, outcome, step};
-use crate::scene::crew::Crew;
 use crate::scene::document::refusal::in_words;
 use crate::scene::mission::Difficulty;
+use crate::scene::pilot_kind::PilotKind;
 use crate::scene::ship::Sees;
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::Observer;
@@ -104,7 +104,7 @@ struct GoalSeen {
     gate: Option<DVec3>,
 }
 
-/// What the hands do, a line of JSON. What is left out is at rest.
+/// The player's commands, a line of JSON. What is left out is at rest.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct Action {
@@ -121,8 +121,8 @@ struct Action {
 }
 
 impl Action {
-    /// The hands, and for how long.
-    fn check(&self) -> Result<(Hands, f64), String> {
+    /// The commands, and for how long.
+    fn check(&self) -> Result<(PlayerCommands, f64), String> {
         for (name, axes) in [("thrust", self.thrust), ("turn", self.turn)] {
             if let Some(axis) = axes.iter().find(|axis| !(-1.0..=1.0).contains(*axis)) {
                 return Err(format!("{name}: {axis} must be from -1 to 1"));
@@ -133,7 +133,7 @@ impl Action {
             return Err(format!("for: {span} must be above 0 and at most {LONGEST} r_s/c"));
         }
         let stick = Stick { thrust: self.thrust.into(), turn: self.turn.into() };
-        Ok((Hands { fire: self.fire, looking: self.look, assist: self.assist, ..Hands::holding(&stick) }, span))
+        Ok((PlayerCommands { fire: self.fire, looking: self.look, assist: self.assist, ..PlayerCommands::holding(&stick) }, span))
     }
 }
 
@@ -155,7 +155,7 @@ pub fn fly(
     let sees = scene.ships.get(world.get::<Ship>(own).map_or(0, |ship| ship.index)).map_or(Sees::Now, |spec| spec.sees);
     let pace = config.clock.pace;
     let AgentRequest { difficulty, seed, .. } = *request;
-    world.insert_resource(ReplayLog(Replay::begin(scene, request.config, difficulty, Crew::Expert, seed)));
+    world.insert_resource(ReplayLog(Replay::begin(scene, request.config, difficulty, PilotKind::Expert, seed)));
     for number in 1.. {
         let decided = outcome(world).map(|(outcome, _)| outcome.name());
         let over = decided.or((world.resource::<Clock>().time >= request.until).then_some("undecided"));
@@ -178,8 +178,8 @@ pub fn fly(
             return Err(SimulateError::Input(format!("standard input, line {number}: an action is an object: {{\"thrust\": [0, 0, -1]}}")));
         }
         let action: Action = serde_json::from_str(&answer).map_err(|error| wrong(said(&error)))?;
-        let (hands, span) = action.check().map_err(wrong)?;
-        world.insert_resource(Hands { pace, ..hands });
+        let (commands, span) = action.check().map_err(wrong)?;
+        world.insert_resource(PlayerCommands { pace, ..commands });
         let steps = (span / world.resource::<Clock>().step).round().max(1.0) as u64;
         for _ in 0..steps {
             step(world);

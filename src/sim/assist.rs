@@ -13,7 +13,7 @@ use super::flight::Command;
 use super::pilot::rollout::{Point, advance};
 use super::ship::Engine;
 
-/// What the player's hands do.
+/// How the player deflects the sticks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stick {
     /// Thrust on body axes (right, up, backwards), each in [−1, 1].

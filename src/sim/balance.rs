@@ -1,4 +1,4 @@
-//! `lensrunner balance`: flies every mission on every difficulty by every crew, many times, and counts how they end.
+//! `lensrunner balance`: flies every mission on every difficulty by every pilot, many times, and counts how they end.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -9,8 +9,8 @@ use super::check::{CommandError, files, outcome_name};
 use super::rules::Outcome;
 use super::run::{FlightReport, RunRequest, run};
 use crate::argument::whole;
-use crate::scene::crew::Crew;
 use crate::scene::mission::{Difficulty, Mission};
+use crate::scene::pilot_kind::PilotKind;
 use crate::scene::{self, GameConfig, Scene};
 use crate::user_file::write_whole;
 
@@ -43,29 +43,29 @@ pub struct BalanceRow {
     /// How hard.
     pub difficulty: Difficulty,
     /// Who flew.
-    pub crew: Crew,
+    pub pilot: PilotKind,
     /// For chance.
     pub seed: u64,
     /// What became of it.
     pub report: FlightReport,
 }
 
-/// Every difficulty and crew, in the order of the tables.
-fn pairs() -> impl Iterator<Item = (Difficulty, Crew)> {
-    Difficulty::ALL.into_iter().flat_map(|difficulty| Crew::RATED.into_iter().map(move |crew| (difficulty, crew)))
+/// Every difficulty and pilot, in the order of the tables.
+fn pairs() -> impl Iterator<Item = (Difficulty, PilotKind)> {
+    Difficulty::ALL.into_iter().flat_map(|difficulty| PilotKind::RATED.into_iter().map(move |pilot| (difficulty, pilot)))
 }
 
 /// Flies them all; `done` is told of each.
 fn fly_all(missions: &[Scene], config: &GameConfig, seeds: std::ops::Range<u64>, done: &(dyn Fn() + Sync)) -> Vec<BalanceRow> {
     let all: Vec<_> = (0..missions.len())
-        .flat_map(|mission| pairs().map(move |(difficulty, crew)| (mission, difficulty, crew)))
-        .flat_map(|(mission, difficulty, crew)| seeds.clone().map(move |seed| (mission, difficulty, crew, seed)))
+        .flat_map(|mission| pairs().map(move |(difficulty, pilot)| (mission, difficulty, pilot)))
+        .flat_map(|(mission, difficulty, pilot)| seeds.clone().map(move |seed| (mission, difficulty, pilot, seed)))
         .collect();
     all.into_par_iter()
-        .map(|(mission, difficulty, crew, seed)| {
-            let report = run(&missions[mission], config, &RunRequest { difficulty, crew, seed, until: None });
+        .map(|(mission, difficulty, pilot, seed)| {
+            let report = run(&missions[mission], config, &RunRequest { difficulty, pilot, seed, until: None });
             done();
-            BalanceRow { mission, difficulty, crew, seed, report }
+            BalanceRow { mission, difficulty, pilot, seed, report }
         })
         .collect()
 }
@@ -132,7 +132,7 @@ fn csv(missions: &[Scene], rows: &[BalanceRow]) -> String {
         _ = writeln!(
             text,
             "{mission},{},{},{},{outcome},{time},{proper_time:.4},{fuel:.3},{:.3},{:.3},{hash}",
-            row.difficulty, row.crew, row.seed, radius[0], radius[1]
+            row.difficulty, row.pilot, row.seed, radius[0], radius[1]
         );
     }
     text
@@ -152,10 +152,12 @@ fn table(missions: &[Scene], rows: &[BalanceRow], args: &BalanceArgs) -> String 
     for (index, scene) in missions.iter().enumerate() {
         let Some(mission) = &scene.mission else { continue };
         for difficulty in Difficulty::ALL {
-            let of = |crew: Crew| rows.iter().filter(move |row| row.mission == index && row.difficulty == difficulty && row.crew == crew);
-            let share = |crew: Crew| format!("{:.0} %", 100.0 * wins(of(crew)));
-            let [naive, apprentice, expert] = Crew::RATED.map(share);
-            let [slow, _, quick] = Crew::RATED.map(|crew| middle(of(crew), mission));
+            let of = |pilot: PilotKind| {
+                rows.iter().filter(move |row| row.mission == index && row.difficulty == difficulty && row.pilot == pilot)
+            };
+            let share = |pilot: PilotKind| format!("{:.0} %", 100.0 * wins(of(pilot)));
+            let [naive, apprentice, expert] = PilotKind::RATED.map(share);
+            let [slow, _, quick] = PilotKind::RATED.map(|pilot| middle(of(pilot), mission));
             let ends = ends(rows.iter().filter(|row| row.mission == index && row.difficulty == difficulty));
             _ = writeln!(text, "| {} | {difficulty} | {naive} | {apprentice} | {expert} | {slow} | {quick} | {ends} |", mission.title);
         }

@@ -29,9 +29,9 @@ pub enum CheckError {
 
 /// What came of one file.
 #[derive(Debug)]
-pub enum Verdict {
+pub enum CheckResult {
     /// As expected.
-    Held(FlightReport),
+    AsExpected(FlightReport),
     /// It expects nothing and was not flown: only that the file is right was checked.
     NothingExpected,
     /// Otherwise than expected: one sentence each.
@@ -40,22 +40,22 @@ pub enum Verdict {
     Refused(SceneError),
 }
 
-impl Verdict {
+impl CheckResult {
     /// Whether it counts as a failure.
     pub fn is_failure(&self) -> bool {
-        matches!(self, Verdict::Failed(_) | Verdict::Refused(_))
+        matches!(self, CheckResult::Failed(_) | CheckResult::Refused(_))
     }
 }
 
-impl std::fmt::Display for Verdict {
+impl std::fmt::Display for CheckResult {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Verdict::Held(report) => {
+            CheckResult::AsExpected(report) => {
                 write!(f, "as expected: {} at T = {:.2}, tau = {:.2}", outcome_name(report.outcome), report.time, report.proper_time)
             }
-            Verdict::NothingExpected => f.write_str("nothing expected"),
-            Verdict::Failed(wrong) => write!(f, "FAILED: {}", wrong.join("; ")),
-            Verdict::Refused(error) => write!(f, "REFUSED: {error}"),
+            CheckResult::NothingExpected => f.write_str("nothing expected"),
+            CheckResult::Failed(wrong) => write!(f, "FAILED: {}", wrong.join("; ")),
+            CheckResult::Refused(error) => write!(f, "REFUSED: {error}"),
         }
     }
 }
@@ -74,33 +74,33 @@ pub fn files(path: &Path) -> Result<Vec<PathBuf>, CheckError> {
 }
 
 /// Flies every file, in parallel; verdicts in the order of the files.
-pub fn check_all(files: &[PathBuf], config: &GameConfig) -> Vec<Verdict> {
+pub fn check_all(files: &[PathBuf], config: &GameConfig) -> Vec<CheckResult> {
     files.par_iter().map(|file| check_file(file, config)).collect()
 }
 
-fn check_file(file: &Path, config: &GameConfig) -> Verdict {
+fn check_file(file: &Path, config: &GameConfig) -> CheckResult {
     match crate::scene::load(&file.to_string_lossy()) {
         Ok(scene) => check(&scene, config),
-        Err(error) => Verdict::Refused(error),
+        Err(error) => CheckResult::Refused(error),
     }
 }
 
 /// Flies a scene as it expects to be flown.
-pub fn check(scene: &Scene, config: &GameConfig) -> Verdict {
+pub fn check(scene: &Scene, config: &GameConfig) -> CheckResult {
     // Each file once, however many ships are made of it.
     let models: BTreeSet<&str> = scene.ships.iter().filter_map(|ship| ship.model.as_deref()).collect();
     let missing: Vec<String> = models.into_iter().filter_map(|model| load_or_placeholder(model).1).map(|error| error.to_string()).collect();
     if !missing.is_empty() {
-        return Verdict::Failed(missing);
+        return CheckResult::Failed(missing);
     }
-    let Some(expect) = &scene.expect else { return Verdict::NothingExpected };
+    let Some(expect) = &scene.expect else { return CheckResult::NothingExpected };
     if scene.ships.is_empty() {
-        return Verdict::Failed(vec!["[expect] needs at least one [[ship]]".into()]);
+        return CheckResult::Failed(vec!["[expect] needs at least one [[ship]]".into()]);
     }
-    let request = RunRequest { difficulty: expect.difficulty, crew: expect.crew, seed: expect.seed, until: expect.until };
+    let request = RunRequest { difficulty: expect.difficulty, pilot: expect.pilot, seed: expect.seed, until: expect.until };
     let report = run(scene, config, &request);
     let wrong = differences(expect, &report);
-    if wrong.is_empty() { Verdict::Held(report) } else { Verdict::Failed(wrong) }
+    if wrong.is_empty() { CheckResult::AsExpected(report) } else { CheckResult::Failed(wrong) }
 }
 
 /// The name of an outcome in `[expect]`.
@@ -161,9 +161,9 @@ pub fn run_command(args: &CheckArgs, out: &mut dyn std::io::Write) -> Result<u8,
         writeln!(out, "{}: {verdict}", path.display())?;
     }
     let failed = verdicts.iter().filter(|verdict| verdict.is_failure()).count();
-    let held = verdicts.iter().filter(|verdict| matches!(verdict, Verdict::Held(_))).count();
-    writeln!(out, "{held} as expected, {failed} failed, {} without [expect]", verdicts.len() - held - failed)?;
-    let refused = verdicts.iter().any(|verdict| matches!(verdict, Verdict::Refused(_)));
+    let as_expected = verdicts.iter().filter(|verdict| matches!(verdict, CheckResult::AsExpected(_))).count();
+    writeln!(out, "{as_expected} as expected, {failed} failed, {} without [expect]", verdicts.len() - as_expected - failed)?;
+    let refused = verdicts.iter().any(|verdict| matches!(verdict, CheckResult::Refused(_)));
     Ok(if refused { 2 } else { u8::from(failed > 0) })
 }
 

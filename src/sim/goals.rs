@@ -7,8 +7,8 @@ use bevy::prelude::*;
 use glam::{DQuat, DVec3};
 
 use super::clock::Clock;
-use super::hands::Hands;
 use super::history::{History, rotation};
+use super::player_commands::PlayerCommands;
 use super::rules::{Chase, ChaseRules, Outcome, judge_chase};
 use super::ship::{Controls, CrossedHorizon, Ended, Engine, Fleet, Fuel, Pilot, PilotOrder, ShipMotion};
 use super::sight::apparition;
@@ -131,7 +131,7 @@ type Seen<'a> = (&'a ShipMotion, &'a History, &'a Fuel, &'a Controls, &'a Engine
 
 /// Runs after the ships have flown: `clock.time` is the T of their states.
 fn judge_mission(
-    (clock, rules, hands): (Res<Clock>, Res<ChaseRules>, Res<Hands>),
+    (clock, rules, commands): (Res<Clock>, Res<ChaseRules>, Res<PlayerCommands>),
     mission: Res<ActiveMission>,
     fleet: Res<Fleet>,
     mut progress: ResMut<Progress>,
@@ -144,7 +144,7 @@ fn judge_mission(
     }
     let Ok((own, _, fuel, ..)) = ships.get(progress.own) else { return };
     let mission = &*mission.0;
-    let step = Step { clock: &clock, rules: &rules, hands: &hands, fleet: &fleet, ships: &ships };
+    let step = Step { clock: &clock, rules: &rules, commands: &commands, fleet: &fleet, ships: &ships };
     let outcome = step.lost(mission, &mut progress).or_else(|| {
         if let Some(goal) = mission.goals.get(progress.goal) {
             progress.done = step.done(&goal.task, mission, &mut progress);
@@ -172,7 +172,7 @@ fn judge_mission(
 struct Step<'a, 'w, 's, 'q> {
     clock: &'a Clock,
     rules: &'a ChaseRules,
-    hands: &'a Hands,
+    commands: &'a PlayerCommands,
     fleet: &'a Fleet,
     ships: &'a Query<'w, 's, Seen<'q>>,
 }
@@ -235,7 +235,7 @@ impl Step<'_, '_, '_, '_> {
             GoalTask::Turn { .. } => so_far + rotation(before.attitude, own.attitude).length(),
             // The assist goes on with a little, as drift fades.
             GoalTask::Coast { .. } => lasts(controls.0.thrust.length() < COASTING * engine.max_thrust),
-            GoalTask::Look { ship, angle, .. } => lasts(self.hands.looking || self.is_ahead(&own, ship, angle)),
+            GoalTask::Look { ship, angle, .. } => lasts(self.commands.looking || self.is_ahead(&own, ship, angle)),
             GoalTask::Reach { least, most, .. } => lasts((least..=most).contains(&r)),
             GoalTask::Hold { ship, distance, .. } => {
                 let distance = distance.unwrap_or(self.rules.0.capture_radius);

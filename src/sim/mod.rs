@@ -12,12 +12,12 @@ pub mod check;
 pub mod clock;
 pub mod flight;
 pub mod goals;
-pub mod hands;
 pub mod hash;
 pub mod history;
 pub mod moment;
 pub mod physics;
 pub mod pilot;
+pub mod player_commands;
 pub mod replay;
 pub mod rules;
 pub mod run;
@@ -36,11 +36,11 @@ pub use bolts::{Bolts, BoltsPlugin};
 pub use clock::Clock;
 pub use flight::Command;
 pub use goals::{ActiveMission, GoalsPlugin, Progress};
-pub use hands::{Hands, HandsPlugin};
 pub use history::{History, Sample};
 pub use moment::Moment;
 pub use physics::ShipPhysicsPlugin;
 pub use pilot::{Chance, EnemyAiPlugin, Skill, Skills};
+pub use player_commands::{PlayerCommands, PlayerCommandsPlugin};
 pub use replay::PlaybackPlugin;
 pub use rules::{Chase, ChaseRules, ChaseRulesPlugin, Outcome, begin_chase};
 pub use setup::{app_of, board, outcome, start, step};
@@ -157,7 +157,7 @@ impl PluginGroup for SimulationPlugins {
     fn build(self) -> PluginGroupBuilder {
         PluginGroupBuilder::start::<Self>()
             .add(SimSchedulePlugin)
-            .add(HandsPlugin)
+            .add(PlayerCommandsPlugin)
             .add(EnemyAiPlugin)
             .add(ShipPhysicsPlugin)
             .add(BoltsPlugin)

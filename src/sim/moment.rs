@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use crate::scene::crew::Crew;
+use crate::scene::pilot_kind::PilotKind;
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::matter::ShipState;
 
@@ -37,23 +37,23 @@ impl Moment {
         moment
     }
 
-    /// The scene at T = 0 with `crew` at the controls of the player's ship, or of the first where the scene marks none.
-    pub fn with_crew(scene: &Scene, config: &GameConfig, seed: u64, crew: Crew) -> Moment {
+    /// The scene at T = 0 with `pilot` at the controls of the player's ship, or of the first where the scene marks none.
+    pub fn with_pilot(scene: &Scene, config: &GameConfig, seed: u64, pilot: PilotKind) -> Moment {
         let mut moment = Moment::new(scene, config, 0.0, seed);
         let world = moment.world.world_mut();
         mark_player(world, Some(0));
-        board(world, crew);
+        board(world, pilot);
         moment
     }
 
-    /// Flies a flight again up to its last step. `config` is that of its difficulty; `player` is the ship that hands fly where the scene
-    /// marks none.
+    /// Flies a flight again up to its last step. `config` is that of its difficulty; `player` is the ship that is flown by hand where the
+    /// scene marks none.
     pub fn flown(scene: &Scene, config: &GameConfig, flight: &Replay, player: Option<usize>) -> Moment {
         let mut app = app_of(scene, config, flight.seed);
         let world = app.world_mut();
         mark_player(world, player);
         world.insert_resource(Playback::of(flight));
-        board(world, flight.crew);
+        board(world, flight.pilot);
         let mut moment = Moment { scene: scene.clone(), world: app, nobody: History::nobody() };
         moment.advance(flight.ticks);
         moment

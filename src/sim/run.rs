@@ -2,8 +2,8 @@
 
 use bevy::prelude::*;
 
-use crate::scene::crew::Crew;
 use crate::scene::mission::{Difficulty, ScoredBy};
+use crate::scene::pilot_kind::PilotKind;
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::matter::{angular_momentum, energy};
 
@@ -18,7 +18,7 @@ pub struct RunRequest {
     /// Of a mission.
     pub difficulty: Difficulty,
     /// At the player's ship.
-    pub crew: Crew,
+    pub pilot: PilotKind,
     /// For everything left to chance.
     pub seed: u64,
     /// T at which it ends undecided, in r_s/c; the scene's own time limit if none.
@@ -73,7 +73,7 @@ pub fn run_levelled(scene: &Scene, config: &GameConfig, request: &RunRequest) ->
     let until = request.until.unwrap_or(scene.rules(config).time_limit);
     let mut app = app_of(scene, config, request.seed);
     let world = app.world_mut();
-    board(world, request.crew);
+    board(world, request.pilot);
     for mut history in world.query::<&mut History>().iter_mut(world) {
         history.forget_beyond(KEEP);
     }

@@ -5,8 +5,8 @@ use bevy::prelude::*;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
 use crate::scene::assembly::model_of;
-use crate::scene::crew::Crew;
 use crate::scene::model::SHIP_MODELS;
+use crate::scene::pilot_kind::PilotKind;
 use crate::scene::ship::{Ai, ShipSpec};
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::Observer;
@@ -15,25 +15,30 @@ use crate::spacetime::matter::ShipState;
 use super::bolts::{Bolts, Gun, Hits, Trigger};
 use super::clock::Clock;
 use super::goals::{ActiveMission, Progress};
-use super::hands::{Hands, HandsRule};
 use super::history::History;
 use super::pilot::beginner::Beginner;
 use super::pilot::jerky::Jerky;
-use super::pilot::{Chance, Mind, Skill, Skills};
+use super::pilot::{Chance, PilotState, Skill, Skills};
+use super::player_commands::{ManualControl, PlayerCommands};
 use super::rules::{Chase, ChaseRules, begin_chase};
 use super::ship::{Controls, Engine, Fleet, Fuel, Pilot, PilotOrder, Player, Programme, Ship, ShipMotion, Turning};
 use super::{SimulationPlugins, sight};
 
 /// Starts `scene` (again): clock at T = 0, ships where the scene puts them, chance from `seed`, a mission at its first goal. `config` is
 /// that of the difficulty ([`Scene::config`]). The plugins [`super::SimulationPlugins`] must be there. The player's ship, too, is flown by
-/// its AI until the [`Hands`] take it over.
+/// its AI until the [`PlayerCommands`] take it over.
 pub fn start(world: &mut World, scene: &Scene, config: &GameConfig, seed: u64) {
     world.insert_resource(Clock::new(config.clock.step));
     world.insert_resource(Chance::from_seed(seed));
     world.insert_resource(skills(config));
     world.insert_resource(ChaseRules(scene.rules(config)));
-    world.insert_resource(HandsRule::from(config));
-    world.insert_resource(Hands { autopilot: true, assist: config.assist.enabled, pace: config.clock.pace, ..Hands::default() });
+    world.insert_resource(ManualControl::from(config));
+    world.insert_resource(PlayerCommands {
+        autopilot: true,
+        assist: config.assist.enabled,
+        pace: config.clock.pace,
+        ..PlayerCommands::default()
+    });
     world.insert_resource(Bolts::default());
     world.remove_resource::<Progress>();
     world.remove_resource::<ActiveMission>();
@@ -82,23 +87,23 @@ pub fn app_of(scene: &Scene, config: &GameConfig, seed: u64) -> App {
     app
 }
 
-/// How well the autopilot of a crew flies.
-fn skill(crew: Crew) -> Skill {
-    match crew {
-        Crew::Naive | Crew::Expert | Crew::Hands => Skill::default(),
-        Crew::Apprentice => Skill { replan_period: 6.0, horizon: 20.0, reaction_delay: 4.0 },
+/// How well the autopilot of a kind of pilot flies.
+fn skill(pilot: PilotKind) -> Skill {
+    match pilot {
+        PilotKind::Naive | PilotKind::Expert | PilotKind::Hands => Skill::default(),
+        PilotKind::Apprentice => Skill { replan_period: 6.0, horizon: 20.0, reaction_delay: 4.0 },
     }
 }
 
-/// Puts a crew at the controls of the player's ship in a world that was just started.
-pub fn board(world: &mut World, crew: Crew) {
-    world.resource_mut::<Skills>().own = skill(crew);
+/// Puts a pilot at the controls of the player's ship in a world that was just started.
+pub fn board(world: &mut World, pilot: PilotKind) {
+    world.resource_mut::<Skills>().own = skill(pilot);
     let own: Vec<Entity> = world.query_filtered::<Entity, With<Player>>().iter(world).collect();
     for ship in own {
-        match crew {
-            Crew::Naive => _ = world.entity_mut(ship).insert(Beginner::default()),
-            Crew::Hands => give_to_hands(world, ship),
-            Crew::Apprentice | Crew::Expert => (),
+        match pilot {
+            PilotKind::Naive => _ = world.entity_mut(ship).insert(Beginner::default()),
+            PilotKind::Hands => give_to_hands(world, ship),
+            PilotKind::Apprentice | PilotKind::Expert => (),
         }
     }
 }
@@ -117,7 +122,7 @@ fn begin_mission(world: &mut World, scene: &Scene, bolts: u32) {
     let mut ship = world.entity_mut(own);
     ship.insert((Gun { left: bolts, ready: 0.0 }, Trigger::default()));
     if !ship.contains::<Pilot>() {
-        ship.insert((Pilot { order: PilotOrder::Rest, sees: Default::default() }, Mind::default()));
+        ship.insert((Pilot { order: PilotOrder::Rest, sees: Default::default() }, PilotState::default()));
     }
     let quarry = world.get_resource::<Chase>().and_then(|chase| chase.quarry);
     world.insert_resource(Chase { hunter: own, quarry, held: 0.0, by_goals: true, outcome: None });
@@ -204,7 +209,7 @@ fn muster(world: &mut World, specs: &[ShipSpec], defaults: &Defaults, time: f64)
             give_to_hands(world, fleet.0[index]);
         }
         if let Some(order) = order {
-            world.entity_mut(fleet.0[index]).insert((Pilot { order, sees: spec.sees }, Mind::default()));
+            world.entity_mut(fleet.0[index]).insert((Pilot { order, sees: spec.sees }, PilotState::default()));
         }
     }
     world.insert_resource(fleet);

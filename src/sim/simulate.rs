@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::time::Instant;
 
-use crate::scene::crew::Crew;
+use crate::scene::pilot_kind::PilotKind;
 use crate::scene::ship::Ai;
 use crate::scene::{ConfigError, GameConfig, Scene, SceneError};
 use crate::spacetime::matter::{ShipState, angular_momentum, energy, has_ended};
@@ -38,12 +38,12 @@ pub struct SimulateRequest {
     /// For everything that is left to chance.
     pub seed: u64,
     /// At the player's ship.
-    pub crew: Crew,
+    pub pilot: PilotKind,
 }
 
 impl Default for SimulateRequest {
     fn default() -> Self {
-        SimulateRequest { until: None, every: DEFAULT_EVERY, seed: 0, crew: Crew::Expert }
+        SimulateRequest { until: None, every: DEFAULT_EVERY, seed: 0, pilot: PilotKind::Expert }
     }
 }
 
@@ -116,7 +116,7 @@ pub fn simulate(
 ) -> Result<Summary, SimulateError> {
     let mut until = request.check(scene, config)?;
     let mut app = app_of(scene, config, request.seed);
-    board(app.world_mut(), request.crew);
+    board(app.world_mut(), request.pilot);
     for mut history in app.world_mut().query::<&mut History>().iter_mut(app.world_mut()) {
         history.forget_beyond(KEEP);
     }
@@ -137,7 +137,7 @@ pub fn simulate(
         }
         before = departures(app.world());
         app.world_mut().run_schedule(FixedUpdate);
-        tell(app.world_mut(), until, log)?;
+        log_events(app.world_mut(), until, log)?;
         if let Some((_, decided)) = outcome(app.world()) {
             until = until.min(decided);
         }
@@ -193,7 +193,7 @@ fn write_rows(world: &World, before: &Departures, time: f64, out: &mut dyn Write
     Ok(())
 }
 
-fn tell(world: &mut World, until: f64, log: &mut dyn Write) -> io::Result<()> {
+fn log_events(world: &mut World, until: f64, log: &mut dyn Write) -> io::Result<()> {
     for event in world.resource_mut::<Messages<SimEvent>>().drain().filter(|event| event.time() <= until) {
         writeln!(log, "{event}")?;
     }

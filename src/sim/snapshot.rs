@@ -51,7 +51,7 @@ pub struct FrameCamera {
 pub struct Snapshot {
     /// The flight up to the step at or after `time`.
     pub flight: Replay,
-    /// The ship that hands fly, by its number in the scene; None if hands fly none.
+    /// The ship that the player flies, by its number in the scene; None if the player flies none.
     pub player: Option<usize>,
     /// T of the frame, in r_s/c: at the flight's last step or between that and the one before.
     pub time: f64,
@@ -331,9 +331,9 @@ impl Snapshot {
 mod tests {
     use super::*;
     use crate::scene;
-    use crate::scene::crew::Crew;
     use crate::scene::mission::Difficulty;
-    use crate::sim::hands::Hands;
+    use crate::scene::pilot_kind::PilotKind;
+    use crate::sim::player_commands::PlayerCommands;
     use crate::sim::replay::Record;
 
     /// A frame with numbers that no decimal fraction is.
@@ -343,8 +343,10 @@ mod tests {
         let mut config = GameConfig::default();
         (config.render.orders, config.sky.star_size, config.video.fov) = (3, 0.1 + 0.7, 47.3);
         config.controls.mouse_sensitivity = 0.003;
-        let mut flight = Replay::begin(&scene, &config, Difficulty::Hard, Crew::Apprentice, 7);
-        flight.records = (0..9).map(|k| Record { tick: 3 * k, hands: Hands { thrust: [0, -3, k as i8], ..Hands::default() } }).collect();
+        let mut flight = Replay::begin(&scene, &config, Difficulty::Hard, PilotKind::Apprentice, 7);
+        flight.records = (0..9)
+            .map(|k| Record { tick: 3 * k, commands: PlayerCommands { thrust: [0, -3, k as i8], ..PlayerCommands::default() } })
+            .collect();
         let camera = Observer {
             position: DVec3::new(0.1, -1.0 / 3.0, 1e-17) * 30.0,
             momentum: DVec3::new(-0.0, 2.0 / 3.0, f64::EPSILON),

@@ -3,7 +3,7 @@
 
 use glam::{DVec2, DVec3};
 use lensrunner::judge::geodesic::Segment;
-use lensrunner::judge::ray::{End, Ray, RaySample, Stop, sky_radius};
+use lensrunner::judge::ray::{End, RaySample, Stop, TracedRay, sky_radius};
 use lensrunner::judge::trace::Hit;
 
 /// A set of triangles at rest in Painlevé–Gullstrand coordinates.
@@ -29,7 +29,7 @@ pub enum Seen {
 /// Follows the light seen from `position` in direction `look` (rain frame) back to the first thing it meets.
 pub fn trace(meshes: &[Mesh], position: DVec3, look: DVec3, tolerance: f64) -> Seen {
     let radius = meshes.iter().flat_map(|m| &m.vertices).map(|v| v.length()).fold(sky_radius(position.length()), f64::max);
-    let ray = Ray::trace(position, look, tolerance, &Stop { radius, ..Stop::default() });
+    let ray = TracedRay::trace(position, look, tolerance, &Stop { radius, ..Stop::default() });
     if let Some(hit) = first_hit(meshes, &ray) {
         return Seen::Hit(hit);
     }
@@ -40,7 +40,7 @@ pub fn trace(meshes: &[Mesh], position: DVec3, look: DVec3, tolerance: f64) -> S
 }
 
 /// The first triangle that a ray, followed backwards, meets.
-pub fn first_hit(meshes: &[Mesh], ray: &Ray) -> Option<Hit> {
+pub fn first_hit(meshes: &[Mesh], ray: &TracedRay) -> Option<Hit> {
     let normal = ray.axes[0].cross(ray.axes[1]);
     let mut first: Option<Hit> = None;
     for (object, mesh) in meshes.iter().enumerate() {
@@ -64,7 +64,7 @@ pub fn first_hit(meshes: &[Mesh], ray: &Ray) -> Option<Hit> {
 }
 
 /// The first crossing of the ray with one triangle before the delay `until`.
-fn meet(ray: &Ray, corners: [DVec3; 3], until: f64) -> Option<(RaySample, [f64; 3])> {
+fn meet(ray: &TracedRay, corners: [DVec3; 3], until: f64) -> Option<(RaySample, [f64; 3])> {
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     // The triangle's plane cuts the ray's plane in the line a·x = c.
     let a = DVec2::new(normal.dot(ray.axes[0]), normal.dot(ray.axes[1]));

@@ -9,7 +9,7 @@ mod trace;
 mod world;
 
 use glam::DVec3;
-use lensrunner::judge::picture::{Motion, Thing};
+use lensrunner::judge::picture::{BodyMotion, Thing};
 use lensrunner::scene::lighting::Illumination;
 use lensrunner::scene::{Material, Model, Vertex};
 
@@ -26,6 +26,6 @@ pub fn model(corners: &[DVec3], triangles: &[[u32; 3]]) -> Model {
 }
 
 /// A body of the model of this number.
-pub fn thing<'a>(model: usize, motion: Motion<'a>) -> Thing<'a> {
+pub fn thing<'a>(model: usize, motion: BodyMotion<'a>) -> Thing<'a> {
     Thing { model, scale: 1.0, motion, light: Illumination::default(), id: model as u32 + 1 }
 }

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 use lensrunner::judge::shoot::{shoot, shoot_sky};
-use lensrunner::judge::{Branch, End, Fate, Ray, Stop, fate};
+use lensrunner::judge::{End, EnergySign, RayFate, Stop, TracedRay, fate};
 
 use crate::spacetime::oracles::{DEFLECTIONS, FLASHES, JOINED, SHADOWS_FALLING, SHADOWS_HOVERING};
 
@@ -50,8 +50,8 @@ fn deflection(b: f64) -> f64 {
     let sky = |inwards| {
         let look = look_for(b, l, inwards);
         match fate(DVec3::X * l, DVec3::new(look.x, look.y, 0.0), FINE) {
-            Fate::Escaped { swept, .. } => swept,
-            Fate::Captured => f64::NAN,
+            RayFate::Escaped { swept, .. } => swept,
+            RayFate::Captured => f64::NAN,
         }
     };
     sky(true) + sky(false) - PI
@@ -102,7 +102,7 @@ fn deflection_near_the_critical_ray() {
 fn shadow_edge_of_a_falling_camera() {
     let captured = |l: f64, degrees: f64| {
         let (sine, cosine) = degrees.to_radians().sin_cos();
-        fate(DVec3::Y * l, DVec3::new(sine, -cosine, 0.0), FINE) == Fate::Captured
+        fate(DVec3::Y * l, DVec3::new(sine, -cosine, 0.0), FINE) == RayFate::Captured
     };
     for (l, edge) in SHADOWS_FALLING {
         assert!(captured(l, edge - 1e-9), "L = {l}");
@@ -115,7 +115,7 @@ fn shadow_edge_of_a_falling_camera() {
 fn shadow_edge_of_a_hovering_camera() {
     let captured = |l: f64, degrees: f64| {
         let psi = rain_angle(PI - degrees.to_radians(), l);
-        fate(DVec3::X * l, DVec3::new(psi.cos(), psi.sin(), 0.0), FINE) == Fate::Captured
+        fate(DVec3::X * l, DVec3::new(psi.cos(), psi.sin(), 0.0), FINE) == RayFate::Captured
     };
     for (l, edge) in SHADOWS_HOVERING {
         assert!(captured(l, edge - 2e-9), "L = {l}");
@@ -128,7 +128,7 @@ fn points_seen_by_a_hovering_camera() {
     for (r, degrees, l, psi, _, time) in JOINED {
         let swept = f64::to_radians(degrees);
         let (order, phi) = if swept > PI { (2, TAU - swept) } else { (1, swept) };
-        let seen = shoot(r, phi, l, order, Branch::Plus, FINE).unwrap();
+        let seen = shoot(r, phi, l, order, EnergySign::Plus, FINE).unwrap();
         close(static_angle(seen.psi_rain, l), psi, 2e-13);
         // The table has 13 digits.
         close(seen.delay - clock_offset(l) + clock_offset(r), time, 1e-8f64.min(1e-12 * time + 6e-11).max(time * 5e-12));
@@ -139,11 +139,11 @@ fn points_seen_by_a_hovering_camera() {
 fn a_camera_sees_its_own_flash_as_rings() {
     for (turns, (degrees, closest, trip)) in (1..).zip(FLASHES) {
         // A flash at the camera's own place, `turns` times around: order 2·turns with φ = 0.
-        let seen = shoot(10.0, 0.0, 10.0, 2 * turns, Branch::Plus, FINE).unwrap();
+        let seen = shoot(10.0, 0.0, 10.0, 2 * turns, EnergySign::Plus, FINE).unwrap();
         close(180.0 - static_angle(seen.psi_rain, 10.0).to_degrees(), degrees, 1e-10);
         close(seen.delay, trip, 2e-10);
         let look = DVec3::new(seen.psi_rain.cos(), seen.psi_rain.sin(), 0.0);
-        let ray = Ray::trace(DVec3::X * 10.0, look, FINE, &Stop::default());
+        let ray = TracedRay::trace(DVec3::X * 10.0, look, FINE, &Stop::default());
         let middle = ray.at_swept(f64::from(turns) * PI).unwrap();
         close(middle.position.length(), closest, 1e-9);
     }
@@ -155,7 +155,7 @@ fn energy_and_angular_momentum_are_kept() {
         for i in 0..24 {
             let psi = PI * (f64::from(i) + 0.5) / 24.0;
             let stop = Stop { radius: 1e4, ..Stop::default() };
-            let ray = Ray::trace_in_plane(l, DVec2::new(psi.cos(), psi.sin()), FINE, &stop);
+            let ray = TracedRay::trace_in_plane(l, DVec2::new(psi.cos(), psi.sin()), FINE, &stop);
             let first = ray.segments[0].at(0.0);
             let (energy, spin) = (first.energy(), first.angular_momentum());
             assert_ne!(ray.end, End::Steps);
@@ -179,7 +179,7 @@ fn halving_the_tolerance_converges() {
     // The error stays under a fixed multiple of the tolerance all the way to rounding, on a ray that winds around the photon sphere.
     let look = look_for(0.5 * 5.2279386085338, 8.0, true);
     let sky = |tolerance: f64| {
-        let ray = Ray::trace_in_plane(8.0, look, tolerance, &Stop { radius: 60.0, ..Stop::default() });
+        let ray = TracedRay::trace_in_plane(8.0, look, tolerance, &Stop { radius: 60.0, ..Stop::default() });
         ray.sky_swept().unwrap()
     };
     let exact = sky(1e-18);
@@ -197,7 +197,7 @@ fn halving_the_tolerance_converges() {
 fn the_same_ray_in_space_and_in_its_plane() {
     let position = DVec3::new(3.0, -4.0, 12.0);
     let look = DVec3::new(-0.4, 0.3, -1.0);
-    let ray = Ray::trace(position, look, FINE, &Stop::default());
+    let ray = TracedRay::trace(position, look, FINE, &Stop::default());
     let normal = position.cross(look).normalize();
     assert!(ray.at_delay(-1.0).is_none() && ray.at_swept(100.0).is_none());
     for i in 0..50 {
@@ -222,15 +222,15 @@ fn radial_light() {
     let out = |r: f64| r - 2.0 * r.sqrt() + 2.0 * (1.0 + r.sqrt()).ln();
     let back = |r: f64| r + 2.0 * r.sqrt() + 2.0 * (r.sqrt() - 1.0).abs().ln();
     let seen = |r, l, branch| shoot(r, 0.0, l, 1, branch, FINE).unwrap();
-    close(seen(9.0, 4.0, Branch::Plus).delay, out(9.0) - out(4.0), 1e-13);
-    close(seen(4.0, 9.0, Branch::Plus).delay, back(9.0) - back(4.0), 1e-13);
-    close(seen(1.001, 9.0, Branch::Plus).delay, back(9.0) - back(1.001), 1e-11);
+    close(seen(9.0, 4.0, EnergySign::Plus).delay, out(9.0) - out(4.0), 1e-13);
+    close(seen(4.0, 9.0, EnergySign::Plus).delay, back(9.0) - back(4.0), 1e-13);
+    close(seen(1.001, 9.0, EnergySign::Plus).delay, back(9.0) - back(1.001), 1e-11);
     // Through the horizon, and below it on both branches.
-    close(seen(5.0, 0.2, Branch::Plus).delay, out(5.0) - out(0.2), 1e-13);
-    close(seen(0.8, 0.2, Branch::Plus).delay, out(0.8) - out(0.2), 1e-13);
-    close(seen(0.8, 0.2, Branch::Minus).delay, back(0.2) - back(0.8), 1e-13);
-    assert_eq!(seen(0.8, 0.2, Branch::Minus).psi_rain, PI);
-    assert_eq!(seen(0.8, 0.2, Branch::Plus).psi_rain, 0.0);
+    close(seen(5.0, 0.2, EnergySign::Plus).delay, out(5.0) - out(0.2), 1e-13);
+    close(seen(0.8, 0.2, EnergySign::Plus).delay, out(0.8) - out(0.2), 1e-13);
+    close(seen(0.8, 0.2, EnergySign::Minus).delay, back(0.2) - back(0.8), 1e-13);
+    assert_eq!(seen(0.8, 0.2, EnergySign::Minus).psi_rain, PI);
+    assert_eq!(seen(0.8, 0.2, EnergySign::Plus).psi_rain, 0.0);
 }
 
 #[test]
@@ -239,11 +239,11 @@ fn what_is_seen_from_below_the_horizon() {
         for r in [0.3f64, 0.7, 0.95, 0.999] {
             for phi in [0.2f64, 1.0, 2.0, 3.0] {
                 let visible = r > l && phi < (1.0 - 2.0 * r).acos() - (1.0 - 2.0 * l).acos();
-                let plus = shoot(r, phi, l, 1, Branch::Plus, FINE);
-                let minus = shoot(r, phi, l, 1, Branch::Minus, FINE);
+                let plus = shoot(r, phi, l, 1, EnergySign::Plus, FINE);
+                let minus = shoot(r, phi, l, 1, EnergySign::Minus, FINE);
                 assert_eq!(plus.is_some(), visible, "L {l} r {r} phi {phi}");
                 assert_eq!(minus.is_some(), visible, "L {l} r {r} phi {phi}");
-                assert!(shoot(r, phi, l, 2, Branch::Plus, FINE).is_none());
+                assert!(shoot(r, phi, l, 2, EnergySign::Plus, FINE).is_none());
                 if let (Some(plus), Some(minus)) = (plus, minus) {
                     assert!(plus.energy > 0.0 && minus.energy < 0.0);
                     assert!(plus.delay > 0.0 && minus.delay > plus.delay);
@@ -257,17 +257,18 @@ fn what_is_seen_from_below_the_horizon() {
             for phi in [0.3, 2.0, PI] {
                 let mut before = 0.0;
                 for order in 1..=3 {
-                    let seen = shoot(r, phi, l, order, Branch::Plus, FINE).unwrap_or_else(|| panic!("L {l} r {r} phi {phi} order {order}"));
+                    let seen =
+                        shoot(r, phi, l, order, EnergySign::Plus, FINE).unwrap_or_else(|| panic!("L {l} r {r} phi {phi} order {order}"));
                     assert!(seen.delay >= before - 1e-9 && seen.energy > 0.0);
                     before = seen.delay;
                 }
-                assert!(shoot(r, phi, l, 1, Branch::Minus, FINE).is_none());
+                assert!(shoot(r, phi, l, 1, EnergySign::Minus, FINE).is_none());
             }
         }
     }
     // From outside nothing at or below the horizon is seen.
-    assert!(shoot(1.0, 0.3, 2.0, 1, Branch::Plus, FINE).is_none());
-    assert!(shoot(0.5, 0.3, 2.0, 1, Branch::Plus, FINE).is_none());
+    assert!(shoot(1.0, 0.3, 2.0, 1, EnergySign::Plus, FINE).is_none());
+    assert!(shoot(0.5, 0.3, 2.0, 1, EnergySign::Plus, FINE).is_none());
 }
 
 #[test]
@@ -276,10 +277,10 @@ fn the_sky_is_the_limit_of_far_points() {
         for phi in [0.1, 1.5, 3.0] {
             for order in 1..=3 {
                 let sky = shoot_sky(phi, l, order, FINE).unwrap();
-                let far = shoot(1e8, phi, l, order, Branch::Plus, FINE).unwrap();
+                let far = shoot(1e8, phi, l, order, EnergySign::Plus, FINE).unwrap();
                 close(far.psi_rain, sky.psi_rain, 3e-7);
                 let look = DVec3::new(sky.psi_rain.cos(), sky.psi_rain.sin(), 0.0);
-                let Fate::Escaped { swept, .. } = fate(DVec3::X * l, look, FINE) else { panic!("the sky is in the shadow") };
+                let RayFate::Escaped { swept, .. } = fate(DVec3::X * l, look, FINE) else { panic!("the sky is in the shadow") };
                 close(swept, lensrunner::judge::shoot::swept_angle(order, phi), 1e-7);
             }
         }

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use glam::{DQuat, DVec3};
 use lensrunner::judge::case::Case;
-use lensrunner::judge::picture::{Motion, Pose, Quality, Seen, Sway, World, Worldline};
+use lensrunner::judge::picture::{BodyMotion, Pose, Sampling, Seen, Sway, World, Worldline};
 use lensrunner::scene::{GameConfig, Scene};
 
 use crate::judge::{model, thing};
@@ -73,13 +73,13 @@ fn what_moves_outwards_is_asked_a_few_times_a_ray() {
 #[test]
 fn a_limit_of_time_is_kept_and_said() {
     let case = case(BEHIND, [-6.0, 0.0, 0.0], [0.2, 0.0, 0.0], [64, 36]);
-    let quality = Quality { samples: 1, tolerance: 1e-9, packet: 8 };
-    let late = case.trace_within(&quality, false, Some(1e-9), &|_| ()).unwrap_err();
+    let sampling = Sampling { samples: 1, tolerance: 1e-9, packet: 8 };
+    let late = case.trace_within(&sampling, false, Some(1e-9), &|_| ()).unwrap_err();
     assert_eq!((late.limit, late.pixels, late.all), (1e-9, 0, 64 * 36));
     assert!(late.to_string().contains("0 of 2304 pixels"), "{late}");
     // With time enough, and without a limit, it is the same picture.
-    let whole = case.trace(&quality, false, &|_| ());
-    let within = case.trace_within(&quality, false, Some(1e6), &|_| ()).unwrap();
+    let whole = case.trace(&sampling, false, &|_| ());
+    let within = case.trace_within(&sampling, false, Some(1e6), &|_| ()).unwrap();
     assert_eq!((whole.missing, whole.given_up, whole.given_up_in_words()), (0, 0, None));
     assert_eq!(whole.layers, within.layers);
     assert_eq!(whole.light, within.light);
@@ -104,7 +104,7 @@ fn rays_that_are_given_up_are_counted() {
     let corners = [[0.0, 1.0, 0.0], [0.0, 0.9, 0.1], [0.1, 0.9, 0.0]];
     let models = [model(&corners.map(DVec3::from_array), &[[0, 1, 2]])];
     let look = |bodies: usize| {
-        let world = World::new(&models, vec![thing(0, Motion::Flying(&Restless)); bodies], 0.0, true);
+        let world = World::new(&models, vec![thing(0, BodyMotion::Flying(&Restless)); bodies], 0.0, true);
         let seen = world.look(DVec3::X * 20.0, DVec3::new(-1.0, 0.001, 0.0), 1e-12);
         assert!(!matches!(seen, Seen::Hit(_)));
         let alone = world.given_up();

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::{DQuat, DVec3};
-use lensrunner::judge::picture::{Motion, Pose, Seen, World, Worldline};
+use lensrunner::judge::picture::{BodyMotion, Pose, Seen, World, Worldline};
 use lensrunner::judge::trace::PixelCamera;
 use lensrunner::spacetime::Observer;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
@@ -13,8 +13,8 @@ use crate::judge::{model, thing};
 
 const TOLERANCE: f64 = 1e-13;
 
-fn held() -> Motion<'static> {
-    Motion::Held { position: DVec3::ZERO, attitude: DQuat::IDENTITY }
+fn static_body() -> BodyMotion<'static> {
+    BodyMotion::Static { position: DVec3::ZERO, attitude: DQuat::IDENTITY }
 }
 
 fn any_direction(rng: &mut StdRng) -> DVec3 {
@@ -44,7 +44,7 @@ fn the_tree_finds_what_trying_all_triangles_finds() {
     let mut rng = StdRng::seed_from_u64(11);
     let (corners, triangles) = strewn(300, 2.5, 15.0, &mut rng);
     let models = [model(&corners, &triangles)];
-    let world = World::new(&models, vec![thing(0, held())], 0.0, true);
+    let world = World::new(&models, vec![thing(0, static_body())], 0.0, true);
     let meshes = [Mesh { vertices: corners, triangles }];
     let mut hits = 0;
     for i in 0..600 {
@@ -82,7 +82,7 @@ fn without_a_hole_light_goes_straight() {
     let mut rng = StdRng::seed_from_u64(12);
     let (corners, triangles) = strewn(2000, 1.5, 30.0, &mut rng);
     let models = [model(&corners, &triangles)];
-    let world = World::new(&models, vec![thing(0, held())], 0.0, false);
+    let world = World::new(&models, vec![thing(0, static_body())], 0.0, false);
     let mut hits = 0;
     for _ in 0..3000 {
         let position = any_direction(&mut rng) * rng.random_range(0.5..40.0);
@@ -133,7 +133,7 @@ fn a_moving_body_is_seen_as_lorentz_says() {
             momentum: any_direction(&mut rng) * rng.random_range(0.0..2.0),
             turning: DVec3::ZERO,
         };
-        let world = World::new(&models, vec![thing(0, Motion::Flying(&flight))], 0.0, false);
+        let world = World::new(&models, vec![thing(0, BodyMotion::Flying(&flight))], 0.0, false);
         let camera = any_direction(&mut rng) * 3.0;
         let p = flight.momentum;
         let gamma = (1.0 + p.length_squared()).sqrt();
@@ -182,7 +182,7 @@ fn a_turning_body_beside_the_hole_is_met_on_its_own_worldline() {
     corners.iter_mut().for_each(|v| *v = (*v * 0.6).as_vec3().as_dvec3());
     let models = [model(&corners, &triangles)];
     let time = 40.0;
-    let world = World::new(&models, vec![thing(0, Motion::Flying(&Circle))], time, true);
+    let world = World::new(&models, vec![thing(0, BodyMotion::Flying(&Circle))], time, true);
     let camera = DVec3::new(-9.0, 3.0, 4.0);
     let (mut hits, mut orders) = (0, [0; 4]);
     for i in 0..12000 {
@@ -198,8 +198,12 @@ fn a_turning_body_beside_the_hole_is_met_on_its_own_worldline() {
         // Measured less than 1e-13.
         assert!(pose.place_of(body).distance(hit.position) < 1e-12);
         // Nothing was passed before: along the ray in steps of a hundredth, no triangle's plane is crossed inside the triangle.
-        let ray =
-            lensrunner::judge::Ray::trace(camera, look, TOLERANCE, &lensrunner::judge::Stop { delay: hit.delay, ..Default::default() });
+        let ray = lensrunner::judge::TracedRay::trace(
+            camera,
+            look,
+            TOLERANCE,
+            &lensrunner::judge::Stop { delay: hit.delay, ..Default::default() },
+        );
         if i % 8 > 1 {
             continue;
         }
@@ -225,7 +229,7 @@ fn halving_the_tolerance_moves_no_hit() {
     let mut rng = StdRng::seed_from_u64(15);
     let (corners, triangles) = strewn(2000, 1.0, 20.0, &mut rng);
     let models = [model(&corners, &triangles)];
-    let world = World::new(&models, vec![thing(0, held())], 0.0, true);
+    let world = World::new(&models, vec![thing(0, static_body())], 0.0, true);
     let mut hits = 0;
     for i in 0..1000 {
         let position = any_direction(&mut rng) * [30.0, 5.0, 1.2, 0.5][i % 4];
@@ -268,7 +272,7 @@ fn a_camera_sees_where_it_looks() {
 #[test]
 fn stars_are_seen_where_shooting_sees_them() {
     use glam::Vec3;
-    use lensrunner::judge::picture::shade::Shift;
+    use lensrunner::judge::picture::shade::LightShift;
     use lensrunner::judge::picture::sky::stars;
     use lensrunner::judge::shoot_sky;
     use lensrunner::scene::sky::stars::Star;
@@ -282,7 +286,7 @@ fn stars_are_seen_where_shooting_sees_them() {
         for _ in 0..30 {
             let direction = any_direction(&mut rng);
             let star = Star { direction: direction.as_vec3().normalize(), flux: 1.0, temperature: 6000.0 };
-            let spots = stars(&[star], &camera, true, 1e-14, 1.0, Shift { doppler: true, beaming: true });
+            let spots = stars(&[star], &camera, true, 1e-14, 1.0, LightShift { doppler: true, beaming: true });
             let direction = star.direction.as_dvec3().normalize();
             let across = DVec3::new(direction.x, direction.y, 0.0);
             let phi = across.length().atan2(direction.z);
@@ -372,7 +376,7 @@ fn packets_of_every_size_see_what_single_rays_see() {
         Flight { start: DVec3::new(5.0, 4.0, 2.0), momentum: DVec3::new(-0.5, 0.3, -0.2), turning: DVec3::new(0.1, 0.4, 0.0) },
         Flight { start: DVec3::new(-4.0, 1.0, -6.0), momentum: DVec3::new(0.1, -0.6, 0.3), turning: DVec3::ZERO },
     ];
-    let things = vec![thing(0, held()), thing(1, Motion::Flying(&flights[0])), thing(1, Motion::Flying(&flights[1]))];
+    let things = vec![thing(0, static_body()), thing(1, BodyMotion::Flying(&flights[0])), thing(1, BodyMotion::Flying(&flights[1]))];
     let (mut hits, mut flown, mut captured, mut crossings) = (0, 0, 0, 0);
     for hole in [true, false] {
         let world = World::new(&models, things.clone(), 3.0, hole);

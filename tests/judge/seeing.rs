@@ -4,16 +4,16 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DQuat, DVec3};
 use lensrunner::judge::case::Case;
-use lensrunner::judge::picture::{Crossing, Motion, Seen, Thing, World, Worldline};
+use lensrunner::judge::picture::{BodyMotion, PlaneCrossing, Seen, Thing, World, Worldline};
 use lensrunner::judge::trace::{Hit, PixelCamera};
-use lensrunner::judge::{Fate, fate};
+use lensrunner::judge::{RayFate, fate};
 use lensrunner::scene::Vertex;
 use lensrunner::scene::disk::Gas;
 use lensrunner::scene::lighting::Illumination;
 use lensrunner::scene::model::{Material, shapes};
 use lensrunner::scene::{self, GameConfig, Model};
 use lensrunner::sim::History;
-use lensrunner::sim::seeing::{Body, Pointer, Scenery, Sight, Track, pointers};
+use lensrunner::sim::seeing::{Phenomenon, Pointer, Scenery, SeenBody, Track, pointers};
 use lensrunner::sim::sight;
 use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner::spacetime::matter::{ShipState, gamma};
@@ -32,7 +32,7 @@ const SHARE: f64 = 0.3;
 #[derive(Debug)]
 struct Gassy {
     order: u32,
-    at: Crossing,
+    at: PlaneCrossing,
     /// Share of the pixel's light that it stops, behind what is before it.
     share: f64,
     g: f64,
@@ -115,7 +115,7 @@ fn check(stage: &Stage, pointer: &Pointer, whole: bool) {
     let outward = camera.position.normalize();
     let upper = camera.position.z.signum();
     match pointer.sight {
-        Sight::Shadow => {
+        Phenomenon::Shadow => {
             for pixel in [&here, &wide()] {
                 assert_eq!(pixel.seen, Seen::Captured);
                 pixel.is_clear();
@@ -126,7 +126,7 @@ fn check(stage: &Stage, pointer: &Pointer, whole: bool) {
                 (number, expected) => assert_eq!(number, expected),
             }
         }
-        Sight::PhotonRing => {
+        Phenomenon::PhotonRing => {
             let swept = match here.seen {
                 Seen::Sky { swept, .. } if 1.0 - here.through <= SHARE => swept,
                 _ => {
@@ -143,10 +143,10 @@ fn check(stage: &Stage, pointer: &Pointer, whole: bool) {
             let side = here.look.reject_from(outward).normalize();
             let within = psi + 0.1 * (PI - psi);
             let inwards = outward * within.cos() + side * within.sin();
-            assert_ne!(fate(camera.position, here.look, TOLERANCE), Fate::Captured);
-            assert_eq!(fate(camera.position, inwards, TOLERANCE), Fate::Captured, "{psi}");
+            assert_ne!(fate(camera.position, here.look, TOLERANCE), RayFate::Captured);
+            assert_eq!(fate(camera.position, inwards, TOLERANCE), RayFate::Captured, "{psi}");
         }
-        Sight::DiskFarSide => {
+        Phenomenon::DiskFarSide => {
             for pixel in [&here, &wide()] {
                 let gas = pixel.main_gas();
                 let across = pixel.look - outward * pixel.look.dot(outward);
@@ -156,33 +156,33 @@ fn check(stage: &Stage, pointer: &Pointer, whole: bool) {
             }
             assert!((pointer.number.unwrap() / here.main_gas().at.position.length() - 1.0).abs() < 1e-6);
         }
-        Sight::DiskUnderside => {
+        Phenomenon::DiskUnderside => {
             let gas = here.main_gas();
             assert_eq!(gas.order, 2);
             assert!(gas.at.momentum.z * upper < 0.0, "{here:?}");
             assert!((pointer.number.unwrap() / gas.at.position.length() - 1.0).abs() < 1e-6);
         }
-        Sight::BlueSide | Sight::RedSide => {
+        Phenomenon::BlueSide | Phenomenon::RedSide => {
             // Near the disk's plane much of it is in one pixel.
             for (pixel, within) in [(&here, 1e-6), (&wide(), 0.05)] {
                 let (g, number) = (pixel.main_gas().g, pointer.number.unwrap());
                 assert!((g / number - 1.0).abs() < within, "{g} {number}");
-                assert_eq!(g > 1.0, pointer.sight == Sight::BlueSide, "{g}");
+                assert_eq!(g > 1.0, pointer.sight == Phenomenon::BlueSide, "{g}");
             }
         }
-        Sight::TargetImage | Sight::SecondImage => {
+        Phenomenon::TargetImage | Phenomenon::SecondImage => {
             let hit = here.hit();
             assert_eq!(Some(hit.object), stage.target);
-            assert_eq!(hit.order, if pointer.sight == Sight::TargetImage { 1 } else { 2 });
+            assert_eq!(hit.order, if pointer.sight == Phenomenon::TargetImage { 1 } else { 2 });
             // Its near side is as much younger as it is large.
             assert!((hit.delay - pointer.number.unwrap()).abs() < 1.0, "{} {:?}", hit.delay, pointer.number);
         }
-        Sight::EinsteinRing => {
+        Phenomenon::EinsteinRing => {
             let hit = here.hit();
             assert_eq!(Some(hit.object), stage.target);
             assert!((hit.swept - PI).abs() < 0.1, "{}", hit.swept);
         }
-        Sight::Aberration => {
+        Phenomenon::Aberration => {
             assert!(matches!(here.seen, Seen::Sky { .. }), "{here:?}");
             here.is_clear();
             let number = pointer.number.unwrap();
@@ -190,7 +190,7 @@ fn check(stage: &Stage, pointer: &Pointer, whole: bool) {
             assert!((number * here.blue_of_hovering(camera) - 1.0).abs() < 1e-9, "{number}");
             assert!(number < 0.9, "{number}");
         }
-        Sight::TrueTarget => {}
+        Phenomenon::TrueTarget => {}
     }
 }
 
@@ -213,8 +213,8 @@ fn shadow_of_hovering(position: DVec3) -> f64 {
         let middle: f64 = 0.5 * (dark + light);
         let look = observer.rain_direction(attitude.conjugate() * (towards * middle.cos() + across * middle.sin()));
         match fate(position, look, 1e-14) {
-            Fate::Captured => dark = middle,
-            Fate::Escaped { .. } => light = middle,
+            RayFate::Captured => dark = middle,
+            RayFate::Escaped { .. } => light = middle,
         }
     }
     dark
@@ -241,7 +241,7 @@ fn gas(change: impl FnOnce(&mut GameConfig)) -> Gas {
     Gas::new(&config.disk, config.hole.mass_solar)
 }
 
-fn ask(name: &str, camera: Observer, gas: Option<&Gas>, expected: &[Sight]) {
+fn ask(name: &str, camera: Observer, gas: Option<&Gas>, expected: &[Phenomenon]) {
     let world = World::new(&[], Vec::new(), 7.0, true);
     let stage = Stage { world, gas, camera: PixelCamera { observer: camera, size: SIZE }, target: None };
     let found = pointers(&camera, 7.0, &Scenery { disk: gas, ..Scenery::default() }, ASPECT);
@@ -249,13 +249,13 @@ fn ask(name: &str, camera: Observer, gas: Option<&Gas>, expected: &[Sight]) {
         println!("{name}: {} {:?} {:?}", pointer.sight.key(), camera.pixel(pointer.direction, SIZE), pointer.number);
         check(&stage, pointer, true);
     }
-    let sights: Vec<Sight> = found.iter().map(|pointer| pointer.sight).collect();
+    let sights: Vec<Phenomenon> = found.iter().map(|pointer| pointer.sight).collect();
     assert_eq!(sights, expected, "{name}");
 }
 
 #[test]
 fn the_judge_sees_what_is_pointed_at_in_disk_shadow_and_ring() {
-    use Sight::*;
+    use Phenomenon::*;
     let gas = gas(|_| ());
     let disk = Some(&gas);
     let at = |r: f64, azimuth: f64, height: f64| DVec3::new(azimuth.cos() * height.cos(), azimuth.sin() * height.cos(), height.sin()) * r;
@@ -264,7 +264,7 @@ fn the_judge_sees_what_is_pointed_at_in_disk_shadow_and_ring() {
     let (far, near, fall, inside) = (at(15.0, 0.4, 0.3), at(8.0, -1.0, 0.35), at(6.0, 1.0, 0.5), at(0.7, 0.7, 0.4));
     let circling = circular_momentum(near, DVec3::Z.cross(near)).unwrap();
     // Name, place, momentum (else it hovers), field of view, how it is turned from the hole, disk, what is pointed at.
-    type View<'a> = (&'a str, DVec3, Option<DVec3>, f64, [f64; 3], Option<&'a Gas>, &'a [Sight]);
+    type View<'a> = (&'a str, DVec3, Option<DVec3>, f64, [f64; 3], Option<&'a Gas>, &'a [Phenomenon]);
     let views: [View; 15] = [
         ("hovering", far, None, 1.1, [0.0; 3], disk, &all[..6]),
         ("hovering below, turned", at(15.0, 2.4, -0.2), None, 1.1, [0.2, -0.1, 2.0], disk, &all[..6]),
@@ -314,36 +314,36 @@ fn ball() -> [Model; 1] {
 }
 
 /// Balls of these radii, in r_s: the first is the target.
-fn ask_about(name: &str, camera: Observer, gas: Option<&Gas>, balls: &[(&History, f64)], expected: &[Sight]) -> Vec<Pointer> {
+fn ask_about(name: &str, camera: Observer, gas: Option<&Gas>, balls: &[(&History, f64)], expected: &[Phenomenon]) -> Vec<Pointer> {
     let models = ball();
     let mut things: Vec<Thing> = Vec::new();
     for (number, &(line, radius)) in balls.iter().enumerate() {
         let light = Illumination::default();
-        things.push(Thing { model: 0, scale: 2.0 * radius, motion: Motion::Flying(line), light, id: number as u32 + 1 });
+        things.push(Thing { model: 0, scale: 2.0 * radius, motion: BodyMotion::Flying(line), light, id: number as u32 + 1 });
     }
     let world = World::new(&models, things, 7.0, true);
     let stage = Stage { world, gas, camera: PixelCamera { observer: camera, size: SIZE }, target: Some(0) };
-    let bodies: Vec<Body> = balls.iter().map(|&(history, radius)| Body { track: Track::Ship(history), radius }).collect();
+    let bodies: Vec<SeenBody> = balls.iter().map(|&(history, radius)| SeenBody { track: Track::Ship(history), radius }).collect();
     let scenery = Scenery { disk: gas, target: Some(bodies[0]), others: &bodies[1..] };
     let found = pointers(&camera, 7.0, &scenery, ASPECT);
     for pointer in &found {
         println!("{name}: {} {:?} {:?}", pointer.sight.key(), camera.pixel(pointer.direction, SIZE), pointer.number);
         check(&stage, pointer, true);
     }
-    let sights: Vec<Sight> = found.iter().map(|pointer| pointer.sight).collect();
+    let sights: Vec<Phenomenon> = found.iter().map(|pointer| pointer.sight).collect();
     for sight in expected {
         assert!(sights.contains(sight), "{name}: {sight:?} is not in {sights:?}");
     }
     found
 }
 
-fn has(found: &[Pointer], sight: Sight) -> bool {
+fn has(found: &[Pointer], sight: Phenomenon) -> bool {
     found.iter().any(|pointer| pointer.sight == sight)
 }
 
 #[test]
 fn the_judge_sees_the_target_and_its_images_where_they_are_pointed_at() {
-    use Sight::*;
+    use Phenomenon::*;
     let gas = gas(|_| ());
     let place = DVec3::new(14.0, 2.0, 4.0);
     let camera = facing(place, hovering(place), 1.5, [0.0; 3]);
@@ -397,7 +397,7 @@ fn the_judge_sees_the_target_and_its_images_where_they_are_pointed_at() {
 
 #[test]
 fn the_judge_sees_what_is_pointed_at_in_the_chase() {
-    for (time, expected) in [(0.0, vec![Sight::TargetImage, Sight::BlueSide]), (25.0, vec![]), (70.0, vec![])] {
+    for (time, expected) in [(0.0, vec![Phenomenon::TargetImage, Phenomenon::BlueSide]), (25.0, vec![]), (70.0, vec![])] {
         let case = Case::new(scene::load("chase").unwrap(), GameConfig::default(), time, SIZE);
         let ships: Vec<&dyn Worldline> = case.histories.iter().map(|history| history as &dyn Worldline).collect();
         let gas = Gas::new(&case.scene.disk(&case.config).unwrap(), case.config.hole.mass_solar);
@@ -411,7 +411,7 @@ fn the_judge_sees_what_is_pointed_at_in_the_chase() {
                 "hunter" => Track::Ship(&case.histories[0]),
                 _ => Track::Ship(&case.histories[1]),
             };
-            (number, Body { track, radius })
+            (number, SeenBody { track, radius })
         };
         let (number, target) = body("quarry");
         let others = [body("hunter").1, body("planet").1];
@@ -460,7 +460,7 @@ fn any_gas(rng: &mut StdRng) -> Gas {
 fn the_judge_sees_what_is_pointed_at_from_anywhere() {
     let mut rng = StdRng::seed_from_u64(31);
     let models = ball();
-    let mut counts = [0; Sight::ALL.len()];
+    let mut counts = [0; Phenomenon::ALL.len()];
     for number in 0..150 {
         let camera = any_camera(&mut rng, [0.4, 60.0], 0.1);
         let gas = any_gas(&mut rng);
@@ -468,14 +468,14 @@ fn the_judge_sees_what_is_pointed_at_from_anywhere() {
         let place = any_direction(&mut rng) * between(&mut rng, 2.0, 20.0);
         let ship = circling(place, any_direction(&mut rng), 7.0);
         let light = Illumination::default();
-        let things = vec![Thing { model: 0, scale: 0.4, motion: Motion::Flying(&ship), light, id: 1 }];
+        let things = vec![Thing { model: 0, scale: 0.4, motion: BodyMotion::Flying(&ship), light, id: 1 }];
         let stage = Stage {
             world: World::new(&models, things, 7.0, true),
             gas,
             camera: PixelCamera { observer: camera, size: SIZE },
             target: Some(0),
         };
-        let scenery = Scenery { disk: gas, target: Some(Body { track: Track::Ship(&ship), radius: 0.2 }), others: &[] };
+        let scenery = Scenery { disk: gas, target: Some(SeenBody { track: Track::Ship(&ship), radius: 0.2 }), others: &[] };
         for pointer in pointers(&camera, 7.0, &scenery, ASPECT) {
             println!("{number}: {pointer:?}");
             check(&stage, &pointer, false);
@@ -483,7 +483,7 @@ fn the_judge_sees_what_is_pointed_at_from_anywhere() {
         }
     }
     println!("{counts:?}");
-    for sight in Sight::ALL.into_iter().filter(|&sight| sight != Sight::EinsteinRing) {
+    for sight in Phenomenon::ALL.into_iter().filter(|&sight| sight != Phenomenon::EinsteinRing) {
         assert!(counts[sight as usize] > 5, "{sight:?}: {counts:?}");
     }
 }
@@ -509,7 +509,7 @@ fn every_pointer_is_on_the_screen() {
         let gas = any_gas(&mut rng);
         let place = any_direction(&mut rng) * between(&mut rng, 1.6, 50.0);
         let ship = circling(place, any_direction(&mut rng), 7.0);
-        let body = Body { track: Track::Ship(&ship), radius: between(&mut rng, 0.01, 3.0) };
+        let body = SeenBody { track: Track::Ship(&ship), radius: between(&mut rng, 0.01, 3.0) };
         let scenery = Scenery { disk: (number % 3 > 0).then_some(&gas), target: (number % 2 > 0).then_some(body), others: &[] };
         let found = pointers(&camera, 7.0, &scenery, aspect);
         let half = (0.5 * camera.field_of_view).tan();

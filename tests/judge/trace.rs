@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{DQuat, DVec3};
 use lensrunner::judge::trace::PixelCamera;
-use lensrunner::judge::{Branch, shoot};
+use lensrunner::judge::{EnergySign, shoot};
 use lensrunner::spacetime::Observer;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
@@ -28,7 +28,7 @@ fn a_triangle_is_met_where_shooting_says() {
         let r = rng.random_range(1.1..20.0);
         let phi = rng.random_range(0.05..3.0);
         let order = rng.random_range(1..=3u32);
-        let seen = shoot(r, phi, l, order, Branch::Plus, 1e-17).unwrap();
+        let seen = shoot(r, phi, l, order, EnergySign::Plus, 1e-17).unwrap();
         // The camera on z, the plane of the orbit through x; even orders come from the other side.
         let point = r * DVec3::new(f64::sin(phi), 0.0, f64::cos(phi));
         let side = if order == 2 { -1.0 } else { 1.0 };

@@ -4,8 +4,8 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DQuat, DVec3};
-use lensrunner::judge::picture::{Motion, Pose, Seen, Sway, World, Worldline};
-use lensrunner::judge::{Branch, shoot};
+use lensrunner::judge::picture::{BodyMotion, Pose, Seen, Sway, World, Worldline};
+use lensrunner::judge::{EnergySign, shoot};
 use lensrunner::scene::Model;
 
 use crate::judge::{model, thing};
@@ -40,9 +40,9 @@ fn a_ship_from_afar_is_seen_where_it_was() {
     // The last two are met by light 190 and 1,800 r_s/c old.
     for (start, rate) in [(30.0, -0.7), (20.0, -0.9), (30.0, -0.99)] {
         let ship = Along { start, rate };
-        let prop = thing(1, Motion::Held { position: far, attitude: DQuat::IDENTITY });
-        let alone = World::new(&models, vec![thing(0, Motion::Flying(&ship))], 0.0, true);
-        let beside = World::new(&models, vec![thing(0, Motion::Flying(&ship)), prop], 0.0, true);
+        let prop = thing(1, BodyMotion::Static { position: far, attitude: DQuat::IDENTITY });
+        let alone = World::new(&models, vec![thing(0, BodyMotion::Flying(&ship))], 0.0, true);
+        let beside = World::new(&models, vec![thing(0, BodyMotion::Flying(&ship)), prop], 0.0, true);
         let camera = DVec3::new(10.0, 0.0, 0.0);
         for look in [DVec3::X, DVec3::new(1.0, 1e-5, 2e-5).normalize()] {
             let seen = alone.look(camera, look, TOLERANCE);
@@ -52,7 +52,7 @@ fn a_ship_from_afar_is_seen_where_it_was() {
         }
         // Without a hole: x = 10 + d meets x = start − rate·d.
         let ship = Along { start: start + 1000.0, rate };
-        let flat = World::new(&models, vec![thing(0, Motion::Flying(&ship))], 0.0, false);
+        let flat = World::new(&models, vec![thing(0, BodyMotion::Flying(&ship))], 0.0, false);
         let delay = (start + 990.0) / (1.0 + rate);
         let seen = flat.look(camera, DVec3::X, TOLERANCE);
         assert!(matches!(seen, Seen::Hit(hit) if (hit.delay / delay - 1.0).abs() < 1e-9), "{start} {rate}: {seen:?}");
@@ -65,7 +65,7 @@ fn a_camera_in_the_plane_of_a_wall_sees_what_cameras_beside_it_see() {
     let turn = DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2);
     // Before the camera, and all round it; above the hole light is bent back down to the wall.
     for (x, height) in [(4.0, 10.0), (0.5, 10.0), (4.0, 3.0)] {
-        let wall = thing(0, Motion::Held { position: DVec3::new(x, 0.0, height), attitude: turn });
+        let wall = thing(0, BodyMotion::Static { position: DVec3::new(x, 0.0, height), attitude: turn });
         let world = World::new(&models, vec![wall], 0.0, true);
         let hits = |z: f64| -> Vec<bool> {
             (0..60 * 60)
@@ -112,7 +112,7 @@ fn what_crossed_the_horizon_is_seen_for_ever_and_ever_redder() {
     let ship = Faller::from(1.75);
     let camera = DVec3::new(6.0, 0.0, 0.0);
     let shift = |time: f64| {
-        let world = World::new(&models, vec![thing(0, Motion::Flying(&ship))], time, true);
+        let world = World::new(&models, vec![thing(0, BodyMotion::Flying(&ship))], time, true);
         let look = DVec3::new(-1.0, 0.001, 0.0005).normalize();
         let Seen::Hit(hit) = world.look(camera, look, TOLERANCE) else { panic!("nothing at T = {time}") };
         assert_eq!(world.look_together(camera, &[look], TOLERANCE, &mut |_, _| ()), vec![Seen::Hit(hit)]);
@@ -130,7 +130,7 @@ fn a_body_that_has_ended_costs_no_light_its_time() {
     let models = [square(0.05)];
     let calls = |time: f64, camera: DVec3| {
         let ship = Faller::from(1.75);
-        let world = World::new(&models, vec![thing(0, Motion::Flying(&ship))], time, true);
+        let world = World::new(&models, vec![thing(0, BodyMotion::Flying(&ship))], time, true);
         for i in 0..400 {
             let look = DVec3::new(-1.0, f64::from(i % 20) / 20.0 - 0.5, f64::from(i / 20) / 20.0 - 0.5).normalize();
             world.look(camera, look, TOLERANCE);
@@ -208,7 +208,7 @@ impl Worldline for Round {
 fn aim(camera: DVec3, place: DVec3) -> (DVec3, f64) {
     let (outward, r) = (camera.normalize(), place.length());
     let across = place.reject_from(outward).normalize();
-    let seen = shoot(r, place.angle_between(camera), camera.length(), 1, Branch::Plus, 1e-17).unwrap();
+    let seen = shoot(r, place.angle_between(camera), camera.length(), 1, EnergySign::Plus, 1e-17).unwrap();
     (outward * seen.psi_rain.cos() + across * seen.psi_rain.sin(), seen.delay)
 }
 
@@ -221,7 +221,7 @@ fn closed_bodies_do_not_leak_at_corners_and_edges() {
     for (radius, halvings) in [(0.3, 1), (0.02, 3), (2e-4, 2), (2e-5, 1)] {
         let (corners, triangles, aims) = ball(radius, halvings);
         let models = [model(&corners, &triangles)];
-        let still = World::new(&models, vec![thing(0, Motion::Held { position, attitude })], 0.0, true);
+        let still = World::new(&models, vec![thing(0, BodyMotion::Static { position, attitude })], 0.0, true);
         for (number, &point) in aims.iter().enumerate() {
             let place = position + attitude * point;
             // Not along the outline, where it may pass.
@@ -245,7 +245,7 @@ fn closed_bodies_do_not_leak_at_corners_and_edges() {
                 continue;
             }
             let (look, delay) = aim(camera, place);
-            let world = World::new(&models, vec![thing(0, Motion::Flying(&Round))], delay, true);
+            let world = World::new(&models, vec![thing(0, BodyMotion::Flying(&Round))], delay, true);
             let seen = world.look(camera, look, 1e-15);
             let Seen::Hit(hit) = seen else { panic!("flying, radius {radius}, aim {number}: {seen:?}") };
             assert!(out > 0.0 || (hit.delay - delay).abs() < 1e-9 + 1e-3 * radius, "{radius} {number}: {} {delay}", hit.delay);
@@ -256,7 +256,7 @@ fn closed_bodies_do_not_leak_at_corners_and_edges() {
     // From inside: a ball around hole and camera.
     let (corners, triangles, aims) = ball(20.0, 1);
     let models = [model(&corners, &triangles)];
-    let around = World::new(&models, vec![thing(0, Motion::Held { position: DVec3::ZERO, attitude })], 0.0, true);
+    let around = World::new(&models, vec![thing(0, BodyMotion::Static { position: DVec3::ZERO, attitude })], 0.0, true);
     for point in aims {
         let (look, delay) = aim(camera, attitude * point);
         let seen = around.look(camera, look, 1e-15);
@@ -283,7 +283,7 @@ fn a_body_is_seen_beside_a_moment_of_which_nothing_is_known() {
     for k in 0..64 {
         let moment = 2.0 + f64::from(k) / 128.0;
         let line = Forgetful { place: DVec3::X * (moment + 2e-3), moment: -moment };
-        let world = World::new(&models, vec![thing(0, Motion::Flying(&line))], 0.0, false);
+        let world = World::new(&models, vec![thing(0, BodyMotion::Flying(&line))], 0.0, false);
         assert!(matches!(world.look(DVec3::ZERO + 1e-9 * DVec3::X, DVec3::X, TOLERANCE), Seen::Hit(_)), "{moment}");
     }
 }
@@ -314,7 +314,7 @@ fn light_that_dips_through_a_flying_triangle_and_back_is_stopped() {
         // The camera, at T = 5, sees at the delay `5 − T` light of the moment T, there at y = 5 − (5 − T) + offset.
         let (offset, y0) = (0.6 * (share - 0.5), 5.0);
         let camera = DVec3::new(depth, y0 + offset, 0.3);
-        let world = World::new(&models, vec![thing(0, Motion::Flying(&line))], 5.0, false);
+        let world = World::new(&models, vec![thing(0, BodyMotion::Flying(&line))], 5.0, false);
         // Followed backwards it meets the body first at T = half: then where y = half + offset.
         let met = [half, -half].into_iter().find(|time| (time + offset).abs() < 1.0);
         match (met, world.look(camera, -DVec3::Y, TOLERANCE)) {

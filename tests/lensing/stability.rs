@@ -6,10 +6,10 @@
 use std::f64::consts::{PI, TAU};
 
 use lensrunner::lensing::closed_form::elementary;
-use lensrunner::lensing::methods::{self, Projector, Query};
+use lensrunner::lensing::methods::{self, ProjectionInput, Projector};
 use lensrunner::lensing::table::grid;
 use lensrunner::lensing::{LensRay, Slice, double, lens_lookup_aged, lens_lookup_at, score, single};
-use lensrunner::spacetime::light::{self, Branch, Fate, Order};
+use lensrunner::spacetime::light::{self, Branch, Order, SweepEnd};
 use proptest::prelude::*;
 
 use crate::support::table;
@@ -30,7 +30,7 @@ fn error(row: [f64; 3], order: Order) -> f64 {
     let [r, phi, l] = row;
     let ray = seen(row, order);
     assert!(ray.valid, "no answer at {row:?} {order:?}");
-    let truth = lensrunner::judge::shoot(r, phi, l, u32::from(order.number()), lensrunner::judge::Branch::Plus, 1e-15)
+    let truth = lensrunner::judge::shoot(r, phi, l, u32::from(order.number()), lensrunner::judge::EnergySign::Plus, 1e-15)
         .unwrap_or_else(|| panic!("no light at {row:?}"));
     (angle(&ray) - truth.psi_rain).abs().to_degrees()
 }
@@ -48,7 +48,7 @@ fn critical_rays_are_met_from_both_sides() {
                 let w = critical * (1.0 + side * 10f64.powi(-k));
                 for order in Order::ALL {
                     for phi in [0.3, 1.5, 2.9] {
-                        let Fate::At { u: end, .. } = light::follow(u, w, order.swept(phi)) else { continue };
+                        let SweepEnd::At { u: end, .. } = light::follow(u, w, order.swept(phi)) else { continue };
                         let r = 1.0 / end;
                         if (1.0005..1e4).contains(&r) {
                             met += 1;
@@ -88,7 +88,7 @@ fn the_horizon_and_the_photon_sphere_are_crossed_evenly() {
 
 fn crossed(both: [([f64; 3], f64); 2], order: Order) {
     let truth = both.map(|([r, phi, l], _)| {
-        lensrunner::judge::shoot(r, phi, l, u32::from(order.number()), lensrunner::judge::Branch::Plus, 1e-15)
+        lensrunner::judge::shoot(r, phi, l, u32::from(order.number()), lensrunner::judge::EnergySign::Plus, 1e-15)
             .expect("there is light")
             .psi_rain
     });
@@ -161,7 +161,8 @@ fn far_points_join_the_sky() {
                 assert!(!ray.valid || off < allowed, "r {r} φ {phi} L {l}: {off} rad from the sky");
                 assert!(ray.valid || r > 1.05e4, "no answer at r {r}");
             }
-            let exact = |r: f64| methods::Exact.project(Query { r, phi, camera: l }, Order::ALL[0], Branch::Plus).expect("seen").psi_rain;
+            let exact =
+                |r: f64| methods::Exact.project(ProjectionInput { r, phi, camera: l }, Order::ALL[0], Branch::Plus).expect("seen").psi_rain;
             assert!((exact(1e12) - sky).abs() < 1e-9 * (1.0 + l));
         }
     }

@@ -92,18 +92,18 @@ fn keeps_its_promise_inside(points: usize, seed: u64) {
     use lensrunner::spacetime::light::{Branch, connect, rain_angle};
     use rayon::prelude::*;
     let limit = |r: f64, l: f64| (1.0 - 2.0 * r).acos() - (1.0 - 2.0 * l).acos();
-    let drawn = rows(points, seed).into_iter().filter(|row| row.query.camera < 1.0 && row.query.r < 1.0);
+    let drawn = rows(points, seed).into_iter().filter(|row| row.input.camera < 1.0 && row.input.r < 1.0);
     let inside: Vec<_> = drawn
         .flat_map(|row| {
             let mut seen = row;
-            seen.query.phi *= limit(row.query.r, row.query.camera) / PI;
-            [Some(row), (row.query.r > row.query.camera).then_some(seen)].into_iter().flatten()
+            seen.input.phi *= limit(row.input.r, row.input.camera) / PI;
+            [Some(row), (row.input.r > row.input.camera).then_some(seen)].into_iter().flatten()
         })
         .collect();
     let errors: Vec<[f64; 2]> = inside
         .par_iter()
         .filter_map(|row| {
-            let [r, phi, l] = [row.query.r, row.query.phi, row.query.camera];
+            let [r, phi, l] = [row.input.r, row.input.phi, row.input.camera];
             let ray = score::look_up_row_on(&Slice::new(table(), l), [r, phi, l], Order::ALL[0], row.branch);
             // Light reaches no farther around than the ray of zero energy; what rounding φ and r does at that edge is left open.
             let edge = r > l && (phi / limit(r, l) - 1.0).abs() < 1e-5;
@@ -398,7 +398,7 @@ fn momenta_and_frequencies_belong_to_one_photon() {
     use lensrunner::spacetime::light::Branch;
     let mut inside = 0;
     for row in rows(6000, 3) {
-        let [mut phi, r, l] = [row.query.phi, row.query.r, row.query.camera];
+        let [mut phi, r, l] = [row.input.phi, row.input.r, row.input.camera];
         if r < 1.0 && r > l {
             phi *= 0.9 * ((1.0 - 2.0 * r).acos() - (1.0 - 2.0 * l).acos()) / PI;
         }
@@ -479,7 +479,7 @@ fn inside_the_horizon_both_branches_agree_with_the_judge() {
             ([r, (part * limit).max(1e-6), l], limit)
         })
         .collect();
-    for (branch, judged) in [(Branch::Plus, lensrunner::judge::Branch::Plus), (Branch::Minus, lensrunner::judge::Branch::Minus)] {
+    for (branch, judged) in [(Branch::Plus, lensrunner::judge::EnergySign::Plus), (Branch::Minus, lensrunner::judge::EnergySign::Minus)] {
         let seen: Vec<_> = rows
             .par_iter()
             .map(|&(row, limit)| {

@@ -9,11 +9,11 @@ use lensrunner::play::session::Session;
 use lensrunner::play::sound::file::render;
 use lensrunner::play::sound::heard::{Alarm, Heard};
 use lensrunner::play::sound::mixer::{Mixer, RATE};
-use lensrunner::play::sound::read::Ear;
+use lensrunner::play::sound::read::Listener;
 use lensrunner::play::sound::record::Recorder;
 use lensrunner::play::sound::voices::beacon::{PERIOD, PITCH};
 use lensrunner::scene::Scene;
-use lensrunner::scene::crew::Crew;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::sim::bolts::{Gun, Hits, Trigger};
 use lensrunner::sim::sight::emission_time;
 use lensrunner::sim::{Clock, Controls, Engine, Fleet, Fuel, History, ShipMotion, app_of};
@@ -117,10 +117,10 @@ fn a_flights_beacon_is_shifted_and_late_as_its_light() {
 fn a_chases_beacon_sounds_at_g_by_the_clocks() {
     let session = session(CHASE);
     let mut app = app(&session);
-    let ear = Ear::of(&session);
+    let listener = Listener::of(&session);
     for time in [2.0, 6.0, 12.0, 20.0] {
         run(&mut app, time + 1.0, |_| ());
-        let heard = ear.heard(app.world(), &session, time, None).expect("a flight");
+        let heard = listener.heard(app.world(), &session, time, None).expect("a flight");
         let mut beacon = heard.beacon.expect("a beacon");
         let mut mixer = Mixer::new(RATE);
         let mut at = |emitted: f64, seconds: f64| {
@@ -140,8 +140,9 @@ fn the_beacon_is_heard_from_where_the_image_is() {
     let session = session(CHASE);
     let mut app = app(&session);
     run(&mut app, 2.0, |_| ());
-    let ear = Ear::of(&session);
-    let pan = |attitude: DQuat| ear.heard(app.world(), &session, 2.0, Some(attitude)).and_then(|heard| heard.beacon).expect("a beacon").pan;
+    let listener = Listener::of(&session);
+    let pan =
+        |attitude: DQuat| listener.heard(app.world(), &session, 2.0, Some(attitude)).and_then(|heard| heard.beacon).expect("a beacon").pan;
     let ahead = pan(DQuat::IDENTITY);
     assert!((pan(DQuat::from_rotation_z(std::f64::consts::PI)) + ahead).abs() < 1e-9 && ahead.abs() > 0.05, "{ahead}");
 }
@@ -153,11 +154,11 @@ fn engines_are_heard_as_they_burn() {
         COASTING.replacen("phase = 3.5 }", "phase = 3.5 }\nthrust = [{ from = 1.0, until = 2.0, acceleration = [0, 0, 0.03] }]", 1);
     let session = session(&burning);
     let most = session.config.ship.thrust;
-    let ear = Ear::of(&session);
+    let listener = Listener::of(&session);
     let mut app = app(&session);
     let mut heard = |until: f64| {
         run(&mut app, until, |_| ());
-        ear.heard(app.world(), &session, until, None).expect("a flight")
+        listener.heard(app.world(), &session, until, None).expect("a flight")
     };
     let (before, during, after) = (heard(0.5), heard(1.5), heard(2.5));
     assert_eq!([before.engine, before.load, after.engine, after.load], [0.0; 4]);
@@ -169,7 +170,7 @@ fn engines_are_heard_as_they_burn() {
     controls.0.thrust = DVec3::X * most;
     app.world_mut().entity_mut(own).insert((controls, Fuel { left: 0.0, capacity: 1.0 }));
     run(&mut app, 3.0, |_| ());
-    let turning = ear.heard(app.world(), &session, 3.0, None).expect("a flight");
+    let turning = listener.heard(app.world(), &session, 3.0, None).expect("a flight");
     assert_eq!((turning.engine, turning.thrusters), (0.0, 1.0), "it turns without fuel");
 }
 
@@ -184,7 +185,7 @@ fn the_disk_is_heard_where_its_gas_is() {
         let mut state = app.world().get::<ShipMotion>(own).expect("a ship").0;
         state.position.z += height;
         app.world_mut().entity_mut(own).insert(History::new(0.0, &state));
-        Ear::of(&session).heard(app.world(), &session, 0.0, None).expect("a flight")
+        Listener::of(&session).heard(app.world(), &session, 0.0, None).expect("a flight")
     };
     let within = at("radius = 6.0", 0.0);
     assert!(within.immersion > 0.99 && within.wind < 1e-6, "{within:?}");
@@ -205,11 +206,11 @@ fn a_hold_is_heard_until_it_is_a_catch() {
     let held =
         held.replace("ai = \"pursue\"\n", "ai = \"pursue\"\nfuel = 0.0\n").replacen("fuel = 7\n", "", 1).replace("fuel = 4", "fuel = 0.0");
     let session = session(&held);
-    let ear = Ear::of(&session);
+    let listener = Listener::of(&session);
     let mut app = app(&session);
     let mut heard = |until: f64| {
         run(&mut app, until, |_| ());
-        ear.heard(app.world(), &session, until, None).expect("a flight")
+        listener.heard(app.world(), &session, until, None).expect("a flight")
     };
     let rules = session.scene.rules(&session.config);
     let half = heard(0.5 * rules.hold_time);
@@ -223,18 +224,18 @@ fn a_hold_is_heard_until_it_is_a_catch() {
 #[test]
 fn bolts_are_heard_as_they_are_fired() {
     let session = session(CHASE);
-    let ear = Ear::of(&session);
+    let listener = Listener::of(&session);
     let mut app = app(&session);
     run(&mut app, 1.0, |_| ());
-    assert_eq!(ear.heard(app.world(), &session, 1.0, None).expect("a flight").bolt, None);
+    assert_eq!(listener.heard(app.world(), &session, 1.0, None).expect("a flight").bolt, None);
     let own = app.world().resource::<Fleet>().0[0];
     app.world_mut().entity_mut(own).insert((Gun { left: 2, ready: 0.0 }, Trigger { pulled: true }));
     run(&mut app, 1.0 + 1.0 / 32.0, |_| ());
-    let fired = ear.heard(app.world(), &session, 1.0, None).expect("a flight");
+    let fired = listener.heard(app.world(), &session, 1.0, None).expect("a flight");
     assert_eq!((fired.bolt, fired.hits), (Some(1.0), 0));
     let other = app.world().resource::<Fleet>().0[1];
     app.world_mut().entity_mut(other).insert(Hits(3));
-    assert_eq!(ear.heard(app.world(), &session, 1.0, None).expect("a flight").hits, 3);
+    assert_eq!(listener.heard(app.world(), &session, 1.0, None).expect("a flight").hits, 3);
 }
 
 /// What the world must say for each alarm, and which goes before which.
@@ -246,7 +247,7 @@ fn alarms_tell_of_the_hole_the_time_and_the_fuel() {
         run(&mut app, until, |_| ());
         change(&mut app);
         let time = app.world().resource::<Clock>().time;
-        Ear::of(&session).heard(app.world(), &session, time, None).expect("a flight")
+        Listener::of(&session).heard(app.world(), &session, time, None).expect("a flight")
     };
     let low = |app: &mut App| {
         let own = app.world().resource::<Fleet>().0[0];
@@ -274,7 +275,7 @@ fn the_demonstration_is_written_to_a_file() {
     let session = Session::load(None, Some("chase"), Some(1)).expect("the game's own files");
     let folder = Folder::new();
     let path = folder.path().join("flight.wav");
-    let (span, _, seconds) = demonstration::sound(&session, Crew::Expert, None, &path).expect("written");
+    let (span, _, seconds) = demonstration::sound(&session, PilotKind::Expert, None, &path).expect("written");
     // A step of the flight is 1/48 s.
     assert!((seconds - (span[1] - span[0]) / session.config.clock.pace).abs() < 0.03, "{span:?} {seconds}");
     let mut file = hound::WavReader::open(&path).expect("a WAV file");
@@ -283,6 +284,6 @@ fn the_demonstration_is_written_to_a_file() {
     let loud = (samples.iter().map(|&x| (f64::from(x) / 32768.0).powi(2)).sum::<f64>() / samples.len() as f64).sqrt();
     assert!((0.01..0.2).contains(&loud), "{loud}");
     let missing = folder.path().join("missing/flight.wav");
-    let error = demonstration::sound(&session, Crew::Expert, None, &missing).expect_err("no such folder").to_string();
+    let error = demonstration::sound(&session, PilotKind::Expert, None, &missing).expect_err("no such folder").to_string();
     assert!(error.contains("missing/flight.wav"), "{error}");
 }

@@ -16,7 +16,7 @@ use lensrunner::play::picture::CurrentShot;
 use lensrunner::play::player_state::PlayerState;
 use lensrunner::play::session::Session;
 use lensrunner::play::tour::wait_for_scene;
-use lensrunner::play::window::{Options, Surface, app};
+use lensrunner::play::window::{Options, OutputSurface, app};
 use lensrunner::scene::Difficulty;
 use lensrunner::sim::replay::Playback;
 use lensrunner::sim::{Chase, Clock};
@@ -36,7 +36,7 @@ pub(super) fn game_of(folder: &Folder, mut session: Session, size: [u32; 2]) -> 
     let options = Options { data: Some(folder.path().into()), ..Options::default() };
     let (choices, said) = Choices::load_from(&folder.path().join("settings.toml"));
     assert_eq!(said, None);
-    let mut app = app(session, &options, Surface::Picture(size), choices);
+    let mut app = app(session, &options, OutputSurface::Picture(size), choices);
     app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(100)));
     app.finish();
     app.cleanup();

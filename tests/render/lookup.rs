@@ -11,7 +11,7 @@ use lensrunner::render::Renderer;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback;
 use lensrunner::render::gpu::types::SeenVertex;
-use lensrunner::render::instances::{DrawnObject, Illumination as Light, Motion, Placed, View, instances_of};
+use lensrunner::render::instances::{DrawnObject, Illumination as Light, InstanceView, ObjectMotion, Placed, instances_of};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::model::shapes;
@@ -48,7 +48,7 @@ impl Bench {
         Bench { renderer, ball, model }
     }
 
-    pub fn object<'a>(&self, motion: Motion<'a>, scale: f64, id: u32) -> DrawnObject<'a> {
+    pub fn object<'a>(&self, motion: ObjectMotion<'a>, scale: f64, id: u32) -> DrawnObject<'a> {
         let light = Light { ambient: [1.0; 3], ..Light::default() };
         let (model, coarse) = (self.model, self.model);
         DrawnObject { model, coarse, stand_ins: &[], motion, reach: scale, scale, id, light }
@@ -61,7 +61,7 @@ impl Bench {
     /// The same by pixels of this size, in radians.
     pub fn place_by(&self, pixel: f64, camera: &Observer, time: f64, object: &DrawnObject, settings: &Settings) -> Vec<Placed> {
         let slice = Slice::new(self.renderer.table(), camera.radius());
-        instances_of(&View { camera, slice: &slice, pixel, aspect: None, settings }, time, object, settings.orders)
+        instances_of(&InstanceView { camera, slice: &slice, pixel, aspect: None, settings }, time, object, settings.orders)
     }
 
     /// The model's vertices as the GPU sees them, instance by instance.
@@ -94,7 +94,7 @@ fn polar(camera: &Observer, point: DVec3) -> (f64, f64, DVec3, DVec3) {
 /// Where the light of order 1 or 2 from `point` is seen and how long it took, by the judge.
 fn judged(camera: &Observer, point: DVec3, order: u32, branch: Branch) -> Option<(DVec3, f64)> {
     let (r, phi, n, side) = polar(camera, point);
-    let branch = if branch == Branch::Minus { lensrunner::judge::Branch::Minus } else { lensrunner::judge::Branch::Plus };
+    let branch = if branch == Branch::Minus { lensrunner::judge::EnergySign::Minus } else { lensrunner::judge::EnergySign::Plus };
     let seen = shoot(r, phi, camera.radius(), order, branch, 1e-15)?;
     let side = if order == 2 { -side } else { side };
     Some((camera.seen_direction(n * seen.psi_rain.cos() + side * seen.psi_rain.sin()), seen.delay))
@@ -105,14 +105,14 @@ fn falling(position: DVec3, momentum: DVec3) -> Observer {
     Observer { position, momentum, attitude, field_of_view: 1.0 }
 }
 
-/// A camera inside sees a ball that is held inside twice, by light of either sign of E, each vertex where the judge sees it.
+/// A camera inside sees a static ball inside twice, by light of either sign of E, each vertex where the judge sees it.
 #[test]
 fn a_camera_inside_sees_what_is_inside_twice() {
     let mut bench = bench();
     let camera = falling(DVec3::new(0.0, 0.05, 0.45), DVec3::new(0.1, -0.2, 0.05));
     let settings = Settings::finest();
     for position in [DVec3::new(0.05, 0.1, 0.7), DVec3::new(-0.3, 0.2, 0.62), DVec3::new(0.0, -0.06, 0.9)] {
-        let motion = Motion::Held { position, attitude: DQuat::IDENTITY };
+        let motion = ObjectMotion::Static { position, attitude: DQuat::IDENTITY };
         let placed = bench.place(&camera, 0.0, &bench.object(motion, 0.05, 1), &settings);
         // Orders 1 to 3 are asked for, only the first exists: by E > 0, then by E < 0.
         assert_eq!(placed.len(), 2);
@@ -149,7 +149,7 @@ fn what_was_foreseen_is_seen_inside() {
     let settings = Settings::finest();
     for radius in [0.45, 1.6, 0.45, 1.4] {
         let camera = falling(DVec3::new(0.0, 0.05, radius), DVec3::new(0.1, -0.2, 0.05));
-        let motion = Motion::Held { position: DVec3::new(0.05, 0.1, radius + 0.25), attitude: DQuat::IDENTITY };
+        let motion = ObjectMotion::Static { position: DVec3::new(0.05, 0.1, radius + 0.25), attitude: DQuat::IDENTITY };
         let placed = bench.place(&camera, 0.0, &bench.object(motion, 0.05, 1), &settings);
         let vertices = placed.len() * bench.points().len();
         let [seen, want] =
@@ -205,7 +205,7 @@ fn emission(camera: &Observer, time: f64, history: &History, body: DVec3, order:
 fn check_flight(camera: Observer, time: f64, history: &History, size: f64, orders: u32, most: f64) -> [usize; 2] {
     let mut bench = bench();
     let settings = Settings { orders, ..Settings::finest() };
-    let placed = bench.place(&camera, time, &bench.object(Motion::Flying(history), size, 1), &settings);
+    let placed = bench.place(&camera, time, &bench.object(ObjectMotion::Flying(history), size, 1), &settings);
     assert_eq!(placed.len(), orders as usize, "not every order is seen");
     let points = bench.points();
     let seen = bench.seen(camera, time, placed, settings);
@@ -281,7 +281,8 @@ fn a_far_camera_sees_what_is_near_the_horizon_on_time() {
     // A ball just over the horizon: its lowest vertices lie at r = 1.0005.
     for direction in [DVec3::new(0.3, 0.5, 0.6), DVec3::new(0.9, -0.1, -0.2)] {
         let (size, position) = (0.003, direction.normalize() * 1.0035);
-        let placed = bench.place(&camera, 0.0, &bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, size, 1), &settings);
+        let placed =
+            bench.place(&camera, 0.0, &bench.object(ObjectMotion::Static { position, attitude: DQuat::IDENTITY }, size, 1), &settings);
         let points = bench.points();
         let seen = bench.seen(camera, 0.0, placed, settings);
         for order in [1, 2] {
@@ -304,7 +305,7 @@ fn flat_space_projects_straight() {
     let settings = Settings { method: flat::METHOD, ..Settings::finest() };
     let camera = static_camera(DVec3::new(1.0, 2.0, 7.0), DVec3::new(0.1, -0.2, -1.0), DVec3::Y, 1.0);
     let position = DVec3::new(0.5, -1.0, -5.0);
-    let placed = bench.place(&camera, 0.0, &bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, 0.5, 1), &settings);
+    let placed = bench.place(&camera, 0.0, &bench.object(ObjectMotion::Static { position, attitude: DQuat::IDENTITY }, 0.5, 1), &settings);
     assert_eq!(placed.len(), 1);
     let points = bench.points();
     let seen = bench.seen(camera, 0.0, placed, settings);
@@ -316,7 +317,7 @@ fn flat_space_projects_straight() {
     }
     // And back again: pipelines are made anew.
     let settings = Settings::finest();
-    let placed = bench.place(&camera, 0.0, &bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, 0.5, 1), &settings);
+    let placed = bench.place(&camera, 0.0, &bench.object(ObjectMotion::Static { position, attitude: DQuat::IDENTITY }, 0.5, 1), &settings);
     let seen = bench.seen(camera, 0.0, placed, settings);
     let (want, _) = judged(&camera, position + points[0] * 0.5, 1, Branch::Plus).unwrap();
     assert!(apparent(&seen[0]).normalize().angle_between(want).to_degrees() < 0.01);
@@ -330,7 +331,7 @@ fn without_light_delay_things_are_seen_where_they_are_now() {
     let state = ship(DVec3::new(3.0, 0.5, -2.0), DVec3::new(-0.3, 0.1, 0.6));
     let history = flight(state, Command::default(), 30.0);
     let camera = static_camera(DVec3::new(1.0, 2.0, 11.0), DVec3::new(0.0, -0.2, -1.0), DVec3::Y, 1.0);
-    let placed = bench.place(&camera, 1.5, &bench.object(Motion::Flying(&history), 0.3, 1), &settings);
+    let placed = bench.place(&camera, 1.5, &bench.object(ObjectMotion::Flying(&history), 0.3, 1), &settings);
     let points = bench.points();
     let seen = bench.seen(camera, 1.5, placed, settings);
     for (point, vertex) in points.iter().zip(&seen) {
@@ -352,7 +353,8 @@ fn paper_one_projects_by_its_tables_and_drops_triangles() {
     let settings = Settings { method: paper1, orders: 3, stars: false, milky_way: false, ..Settings::finest() };
     let camera = static_camera(DVec3::new(1.0, 2.0, 11.0), DVec3::new(0.1, -0.2, -1.0), DVec3::Y, 1.0);
     for position in [DVec3::new(3.0, -1.0, -5.0), DVec3::new(-2.0, 3.0, 25.0)] {
-        let placed = bench.place(&camera, 0.0, &bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, 0.5, 1), &settings);
+        let placed =
+            bench.place(&camera, 0.0, &bench.object(ObjectMotion::Static { position, attitude: DQuat::IDENTITY }, 0.5, 1), &settings);
         assert_eq!(placed.len(), 2, "Yamashita 2012 has two orders");
         let points = bench.points();
         let seen = bench.seen(camera, 0.0, placed, settings);
@@ -371,7 +373,7 @@ fn paper_one_projects_by_its_tables_and_drops_triangles() {
     let square = bench.renderer.add_model(&shapes::square(200, shapes::Anchor::Inside, Material::default()));
     let count = |bench: &mut Bench, method| {
         let settings = Settings { method, ..settings };
-        let motion = Motion::Held { position: DVec3::new(0.0, 0.0, -12.0), attitude: DQuat::IDENTITY };
+        let motion = ObjectMotion::Static { position: DVec3::new(0.0, 0.0, -12.0), attitude: DQuat::IDENTITY };
         let mut object = bench.object(motion, 8.0, 1);
         (object.model, object.coarse) = (square, square);
         let eye = static_camera(DVec3::new(0.0, 0.0, 15.0), DVec3::NEG_Z, DVec3::Y, 1.0);

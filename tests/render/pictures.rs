@@ -3,9 +3,9 @@
 use glam::DVec3;
 use lensrunner::lensing::Slice;
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::gpu::readback::{self, Picture};
+use lensrunner::render::gpu::readback::{self, ReadbackPicture};
 use lensrunner::render::gpu::types::SeenVertex;
-use lensrunner::render::instances::{DrawnObject, Illumination as Light, Motion, View, instances_of};
+use lensrunner::render::instances::{DrawnObject, Illumination as Light, InstanceView, ObjectMotion, instances_of};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::{self, Body, GameConfig};
@@ -16,7 +16,7 @@ use crate::gpu::GPU;
 use crate::render::support::{renderer, settings};
 
 /// A scene's picture with its layers.
-fn picture(name: &str, size: [u32; 2]) -> (Picture, Observer) {
+fn picture(name: &str, size: [u32; 2]) -> (ReadbackPicture, Observer) {
     let scene = scene::load(name).unwrap();
     let config = GameConfig::default();
     let mut renderer = renderer(size);
@@ -49,18 +49,18 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
     let slice = Slice::new(renderer.table(), camera.radius());
     // Pixels so small that no image is left out as too thin.
     let settings = Settings::finest();
-    let view = View { camera: &camera, slice: &slice, pixel: 1e-9, aspect: None, settings: &settings };
+    let view = InstanceView { camera: &camera, slice: &slice, pixel: 1e-9, aspect: None, settings: &settings };
     let model = renderer.add_model(&assembly.models[0]);
     let prepared = lensrunner::render::models::Prepared::new(&assembly.models[0]);
     let mut placed = Vec::new();
     let mut points = Vec::new();
     for object in &assembly.objects {
-        let Body::Held { position, attitude } = object.body else { panic!("the parade does not move") };
+        let Body::Static { position, attitude } = object.body else { panic!("the parade does not move") };
         let held = DrawnObject {
             model,
             coarse: model,
             stand_ins: &[],
-            motion: Motion::Held { position, attitude },
+            motion: ObjectMotion::Static { position, attitude },
             reach: object.scale,
             scale: object.scale,
             id: 1,
@@ -167,7 +167,7 @@ fn the_ring_is_where_the_judge_sees_it() {
     let (picture, camera) = picture("ring", size);
     let scene = scene::load("ring").unwrap();
     let assembly = scene.assemble(&GameConfig::default());
-    let Body::Held { position, attitude } = assembly.objects[0].body else { panic!("the sphere does not move") };
+    let Body::Static { position, attitude } = assembly.objects[0].body else { panic!("the sphere does not move") };
     let model = &assembly.models[assembly.objects[0].model];
     let mesh = Mesh {
         vertices: model
@@ -222,7 +222,7 @@ fn with_the_back_to_the_disk_stars_are_exposed_as_without_one() {
     let size = [160, 90];
     let mut renderer = crate::render::support::renderer_under(&lensrunner::render::shot::surroundings(), size);
     let config = GameConfig::default();
-    let disk = || lensrunner::render::disk::Disk::new(config.disk.clone(), &config);
+    let disk = || lensrunner::render::disk::DrawnDisk::new(config.disk.clone(), &config);
     let mut light = |ahead: DVec3, with: bool| {
         renderer.set_disk(with.then(disk));
         let camera = static_camera(DVec3::new(0.0, -16.0, 1.0), ahead, DVec3::Z, 1.0);
@@ -240,7 +240,7 @@ fn with_the_back_to_the_disk_stars_are_exposed_as_without_one() {
 #[test]
 fn a_hot_prop_glows_as_the_judge_says() {
     use lensrunner::judge::case::Case;
-    use lensrunner::judge::picture::Quality;
+    use lensrunner::judge::picture::Sampling;
     const SCENE: &str = "[camera]\nposition = [2.0, 0.0, 0.0]\nlook = [1.0, 0.0, 0.0]\n\
         [[prop]]\nmodel = \"icosphere\"\nposition = [6.0, 0.0, 0.0]\nsize = 2.0\n";
     let size = [33, 17];
@@ -254,8 +254,8 @@ fn a_hot_prop_glows_as_the_judge_says() {
         let frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &Settings { doppler, beaming, ..settings() });
         let drawn = renderer.picture(&frame, true).unwrap();
         assert_eq!(drawn.layers[middle][0], 1.0, "the prop is not in the middle of the picture");
-        let quality = Quality { samples: 1, tolerance: 1e-10, packet: 8 };
-        let judged = Case::new(scene, config, 0.0, size).trace(&quality, false, &|_| ());
+        let sampling = Sampling { samples: 1, tolerance: 1e-10, packet: 8 };
+        let judged = Case::new(scene, config, 0.0, size).trace(&sampling, false, &|_| ());
         let [red, green, blue, _] = drawn.linear[middle];
         ([red, green, blue], judged.light[middle])
     };

@@ -1,7 +1,7 @@
 //! Post-processing: bloom, exposure and tone curve as they are written in Rust; outlines of bodies without steps.
 
-use lensrunner::judge::picture::post_process::{PostProcess, post_process};
-use lensrunner::render::gpu::readback::Picture;
+use lensrunner::judge::picture::post_process::{PostProcessSettings, post_process};
+use lensrunner::render::gpu::readback::ReadbackPicture;
 use lensrunner::render::renderer::Renderer;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage;
@@ -13,7 +13,7 @@ use lensrunner::spacetime::Observer;
 use crate::render::support::{linear, renderer};
 
 /// A scene at T = 0, with its layers.
-fn picture(name: &str, size: [u32; 2], settings: &Settings) -> Picture {
+fn picture(name: &str, size: [u32; 2], settings: &Settings) -> ReadbackPicture {
     let scene = scene::load(name).unwrap();
     let mut renderer = renderer(size);
     let mut stage = Stage::new(&mut renderer, &scene, &GameConfig::default());
@@ -29,7 +29,7 @@ fn pictures_are_finished_as_in_rust() {
         let settings = Settings { bloom, smooth: false, ..Settings::finest() };
         let drawn = picture("ring", size, &settings);
         let light: Vec<[f32; 3]> = drawn.linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
-        let how = PostProcess { bloom, key: settings.exposure_key, exposure_range: settings.exposure_range };
+        let how = PostProcessSettings { bloom, key: settings.exposure_key, exposure_range: settings.exposure_range };
         let mut wide = 0;
         for (shader, rust) in drawn.display.chunks_exact(4).zip(post_process(&light, size, &how).chunks_exact(3)) {
             let off = (0..3).map(|k| shader[k].abs_diff(rust[k])).max().unwrap_or_default();
@@ -60,7 +60,7 @@ fn outlines_of_bodies_are_smooth() {
     let settings = |smooth| Settings { bloom: 0.0, smooth, exposure_range: [1.0, 1.0], min_width: 0.0, orders: 1, ..Settings::finest() };
     let finer = picture("ring", size.map(|side| 4 * side), &settings(false));
     let [plain, smooth] = [false, true].map(|on| picture("ring", size, &settings(on)));
-    let at = |picture: &Picture, column: u32, row: u32| linear(picture.display[4 * (row * picture.size[0] + column) as usize + 1]);
+    let at = |picture: &ReadbackPicture, column: u32, row: u32| linear(picture.display[4 * (row * picture.size[0] + column) as usize + 1]);
     let is_body = |column: u32, row: u32| plain.layers[(row * size[0] + column) as usize][0] > 0.0;
     let mut errors = [0.0; 2];
     let mut outline = 0;
@@ -122,7 +122,7 @@ fn the_own_ship_is_lit_for_the_exposure() {
     let ship: Vec<usize> = (0..plain.layers.len()).filter(|&k| plain.layers[k][0] == 1.0 && covered(k)).collect();
     assert!(ship.len() > 50, "{} pixels", ship.len());
     // The median pixel is hull, not engine.
-    let hull = |picture: &Picture| {
+    let hull = |picture: &ReadbackPicture| {
         let mut light: Vec<f32> = ship.iter().map(|&k| picture.linear[k][1]).collect();
         light.sort_by(f32::total_cmp);
         light[light.len() / 2]

@@ -4,7 +4,7 @@ use lensrunner::spacetime::Observer;
 
 use glam::{DQuat, DVec3};
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::gpu::readback::Picture;
+use lensrunner::render::gpu::readback::ReadbackPicture;
 use lensrunner::render::gpu::types::Star;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::settings::Settings;
@@ -13,7 +13,7 @@ use crate::render::support::renderer_under;
 use crate::support::shared_table;
 
 /// A picture of these stars before a Milky Way of even brightness `haze`, from far away.
-fn picture(stars: &[Star], haze: f32, camera: Observer, size: [u32; 2], settings: Settings) -> Picture {
+fn picture(stars: &[Star], haze: f32, camera: Observer, size: [u32; 2], settings: Settings) -> ReadbackPicture {
     let surroundings = Surroundings { table: shared_table(), stars: stars.to_vec(), milky_way: vec![(1, 1, vec![haze])] };
     let mut renderer = renderer_under(&surroundings, size);
     let input = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: None, settings };

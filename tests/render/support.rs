@@ -4,9 +4,9 @@ use lensrunner::spacetime::Observer;
 
 use glam::DVec3;
 use lensrunner::render::Renderer;
-use lensrunner::render::disk::Disk;
+use lensrunner::render::disk::DrawnDisk;
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::gpu::readback::Picture;
+use lensrunner::render::gpu::readback::ReadbackPicture;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::{self, Stage, static_camera};
@@ -38,9 +38,9 @@ pub fn camera(l: f64, degrees: f64, field_of_view: f64) -> Observer {
 }
 
 /// The disk of the game.
-pub fn a_disk() -> Disk {
+pub fn a_disk() -> DrawnDisk {
     let config = GameConfig::default();
-    Disk::new(config.disk.clone(), &config)
+    DrawnDisk::new(config.disk.clone(), &config)
 }
 
 /// Without a sky and without what blurs.
@@ -64,7 +64,7 @@ pub fn linear(encoded: u8) -> f64 {
 }
 
 /// The root mean square of the difference from `want`, over that of `want`.
-pub fn apart(got: &Picture, want: &Picture) -> f64 {
+pub fn apart(got: &ReadbackPicture, want: &ReadbackPicture) -> f64 {
     let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
     let off: f64 = got.linear.iter().zip(&want.linear).map(|(p, q)| square(p, q)).sum();
     let all: f64 = want.linear.iter().map(|p| square(p, &[0.0; 4])).sum();
@@ -72,6 +72,6 @@ pub fn apart(got: &Picture, want: &Picture) -> f64 {
 }
 
 /// The light in a picture.
-pub fn total(picture: &Picture) -> f64 {
+pub fn total(picture: &ReadbackPicture) -> f64 {
     picture.linear.iter().map(|p| f64::from(p[0] + p[1] + p[2])).sum()
 }

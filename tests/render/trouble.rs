@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 use lensrunner::render::Gpu;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::PictureError;
-use lensrunner::render::instances::{Motion, Placed};
+use lensrunner::render::instances::{ObjectMotion, Placed};
 use lensrunner::render::renderer::Renderer;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
@@ -21,7 +21,7 @@ fn camera() -> Observer {
 }
 
 fn ball(bench: &Bench, position: DVec3, size: f64, settings: &Settings) -> Vec<Placed> {
-    bench.place(&camera(), 0.0, &bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, size, 1), settings)
+    bench.place(&camera(), 0.0, &bench.object(ObjectMotion::Static { position, attitude: DQuat::IDENTITY }, size, 1), settings)
 }
 
 fn frame(placed: Vec<Placed>, settings: Settings) -> FrameInput {
@@ -59,7 +59,7 @@ fn a_picture_without_a_size_waits() {
     assert!(bench.renderer.picture(&frame(Vec::new(), settings()), false).is_ok());
 }
 
-/// Numbers that are not finite are caught at the door, counted, and not drawn; what is beside them is.
+/// Numbers that are not finite are caught on input, counted, and not drawn; what is beside them is.
 #[test]
 fn what_is_not_finite_is_counted_and_not_drawn() {
     let mut bench = bench();
@@ -119,7 +119,7 @@ fn a_full_vertex_buffer_is_said_and_nothing_vanishes() {
     // The most that is allowed as well, which some devices' buffers cannot hold.
     for vertex_budget in [600_000, 1_000, 2_000_000] {
         let settings = Settings { orders: 2, vertex_budget, ..settings() };
-        let motion = Motion::Held { position: DVec3::new(0.0, 0.0, -12.0), attitude: DQuat::IDENTITY };
+        let motion = ObjectMotion::Static { position: DVec3::new(0.0, 0.0, -12.0), attitude: DQuat::IDENTITY };
         let mut object = bench.object(motion, 8.0, 1);
         (object.model, object.coarse) = (square, square);
         let placed = bench.place(&camera(), 0.0, &object, &settings);
@@ -163,7 +163,7 @@ fn the_settings_of_geometry_do_what_they_say() {
     // Thresholds of the instances, by a pixel of 0.01 rad.
     use lensrunner::render::gpu::types::placed::THIN;
     let stand_in = bench.renderer.add_model(&shapes::icosphere(20, Material::default()));
-    let mut object = bench.object(Motion::Held { position: DVec3::new(9.0, 0.0, 0.0), attitude: DQuat::IDENTITY }, 0.2, 1);
+    let mut object = bench.object(ObjectMotion::Static { position: DVec3::new(9.0, 0.0, 0.0), attitude: DQuat::IDENTITY }, 0.2, 1);
     object.coarse = stand_in;
     let images = |settings: Settings| bench.place_by(0.01, &camera(), 0.0, &object, &Settings { orders: 3, ..settings });
     let count = |settings: Settings| images(settings).len();
@@ -187,7 +187,7 @@ fn rings_of_orders_two_and_three_are_unbroken() {
     for (order, position, radius) in [(2, DVec3::new(0.0, 0.0, 9.0), 1.0), (3, DVec3::new(0.0, 0.0, -12.0), 4.0)] {
         let settings = Settings { orders: 3, least_width: 0.0, ..settings() };
         let eye = camera();
-        let object = bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, radius, 1);
+        let object = bench.object(ObjectMotion::Static { position, attitude: DQuat::IDENTITY }, radius, 1);
         let placed = bench.place_by(2.0 * (0.5 * eye.field_of_view).tan() / 320.0, &eye, 0.0, &object, &settings);
         assert_eq!(placed.len(), 3);
         let picture = bench.renderer.picture(&frame(placed, settings), true).unwrap();

@@ -11,7 +11,7 @@ use lensrunner::sim::assist::{AssistSettings, Reference, Stick, assisted, drift}
 use lensrunner::sim::flight::{Flight, fly};
 use lensrunner::sim::pilot::plan::{SAFE_RADIUS, fall_risk};
 use lensrunner::sim::pilot::rollout::Point;
-use lensrunner::sim::{Chase, Clock, Engine, Fleet, Fuel, Hands, History, Outcome, ShipMotion, SimulationPlugins, outcome};
+use lensrunner::sim::{Chase, Clock, Engine, Fleet, Fuel, History, Outcome, PlayerCommands, ShipMotion, SimulationPlugins, outcome};
 use lensrunner::spacetime::matter::{ShipState, energy, step};
 use lensrunner::spacetime::orbit::{circular_orbit, static_momentum};
 
@@ -171,11 +171,11 @@ fn a_hunter_that_falls_in_has_lost_and_one_that_dawdles_too() {
 #[test]
 fn a_ship_flown_by_hand_is_left_alone_by_its_pilot() {
     let mut app = app_of(&scene(CHASE), &GameConfig::default(), 0);
-    *app.world_mut().resource_mut::<Hands>() = Hands { autopilot: false, assist: false, ..Hands::default() };
+    *app.world_mut().resource_mut::<PlayerCommands>() = PlayerCommands { autopilot: false, assist: false, ..PlayerCommands::default() };
     let before = energy(&motion(app.world(), 0));
     (0..200).for_each(|_| app.world_mut().run_schedule(FixedUpdate));
     assert!((energy(&motion(app.world(), 0)) - before).abs() < 1e-12, "it coasted");
-    app.world_mut().resource_mut::<Hands>().autopilot = true;
+    app.world_mut().resource_mut::<PlayerCommands>().autopilot = true;
     (0..200).for_each(|_| app.world_mut().run_schedule(FixedUpdate));
     assert!((energy(&motion(app.world(), 0)) - before).abs() > 1e-3, "its pilot flies again");
 }

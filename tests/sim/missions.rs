@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use bevy::prelude::*;
 use glam::DVec3;
-use lensrunner::scene::crew::Crew;
 use lensrunner::scene::expect::OUTCOMES;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{self, Difficulty, GameConfig, Scene};
 use lensrunner::sim::app_of;
 use lensrunner::sim::bolts::{Bolts, Trigger};
-use lensrunner::sim::check::{Verdict, check, check_all, files, outcome_name};
+use lensrunner::sim::check::{CheckResult, check, check_all, files, outcome_name};
 use lensrunner::sim::replay::{Replay, record};
 use lensrunner::sim::run::{RunRequest, run};
 use lensrunner::sim::ship::ShipMotion;
@@ -32,8 +32,8 @@ fn mission(goals: &str) -> Result<Scene, String> {
     Scene::from_toml(Path::new("m.toml"), &text).map_err(|error| error.to_string())
 }
 
-fn fly(scene: &Scene, crew: Crew) -> Option<Outcome> {
-    run(scene, &GameConfig::default(), &RunRequest { crew, ..RunRequest::default() }).outcome
+fn fly(scene: &Scene, pilot: PilotKind) -> Option<Outcome> {
+    run(scene, &GameConfig::default(), &RunRequest { pilot, ..RunRequest::default() }).outcome
 }
 
 #[test]
@@ -86,16 +86,16 @@ fn flights_of_the_table() -> Vec<(String, String)> {
 fn the_table_of_balance_is_of_these_missions() {
     let table: BTreeMap<String, String> = flights_of_the_table().into_iter().collect();
     let names = scene::mission_names();
-    let ways: Vec<_> = Difficulty::ALL.into_iter().flat_map(|difficulty| Crew::RATED.map(|crew| (difficulty, crew))).collect();
-    let kinds = names.iter().flat_map(|name| ways.iter().map(move |&(difficulty, crew)| (name, difficulty, crew)));
+    let ways: Vec<_> = Difficulty::ALL.into_iter().flat_map(|difficulty| PilotKind::RATED.map(|pilot| (difficulty, pilot))).collect();
+    let kinds = names.iter().flat_map(|name| ways.iter().map(move |&(difficulty, pilot)| (name, difficulty, pilot)));
     let all: Vec<_> = kinds.zip(0u64..).collect();
     assert_eq!(table.len() % all.len(), 0, "{} flights of {} kinds", table.len(), all.len());
     let seeds = (table.len() / all.len()) as u64;
-    all.into_par_iter().for_each(|((name, difficulty, crew), k)| {
+    all.into_par_iter().for_each(|((name, difficulty, pilot), k)| {
         let seed = k % seeds;
         let report =
-            run(&scene::load(name).expect("a mission"), &GameConfig::default(), &RunRequest { difficulty, crew, seed, until: None });
-        let key = format!("{name},{difficulty},{crew},{seed}");
+            run(&scene::load(name).expect("a mission"), &GameConfig::default(), &RunRequest { difficulty, pilot, seed, until: None });
+        let key = format!("{name},{difficulty},{pilot},{seed}");
         let flown = format!("{},{}", outcome_name(report.outcome), report.hash);
         assert_eq!(table.get(&key), Some(&flown), "{key}: make docs/balance anew (lensrunner balance)");
     });
@@ -106,8 +106,8 @@ fn the_table_of_balance_is_of_these_missions() {
 fn missions_are_balanced() {
     let names = scene::mission_names();
     let rows = flights_of_the_table();
-    let share = |index: usize, difficulty: Difficulty, crew: Crew| {
-        let kind = format!("{},{difficulty},{crew},", names[index]);
+    let share = |index: usize, difficulty: Difficulty, pilot: PilotKind| {
+        let kind = format!("{},{difficulty},{pilot},", names[index]);
         let (won, all) = rows.iter().filter(|(key, _)| key.starts_with(&kind)).fold((0, 0), |(won, all), (_, end)| {
             let is_won = Outcome::ALL.into_iter().any(|outcome| outcome.is_won() && end.starts_with(&format!("{},", outcome.name())));
             (won + u32::from(is_won), all + 1)
@@ -115,28 +115,28 @@ fn missions_are_balanced() {
         f64::from(won) / f64::from(all)
     };
     for (index, name) in names.iter().enumerate() {
-        let hard = share(index, Difficulty::Hard, Crew::Expert);
+        let hard = share(index, Difficulty::Hard, PilotKind::Expert);
         assert!((0.05..=0.97).contains(&hard), "{name}: the expert wins {hard} on hard");
-        for crew in Crew::RATED {
-            let [easy, hard] = [Difficulty::Easy, Difficulty::Hard].map(|difficulty| share(index, difficulty, crew));
-            assert!(hard <= easy, "{name}: {crew} wins {hard} on hard and {easy} on easy");
+        for pilot in PilotKind::RATED {
+            let [easy, hard] = [Difficulty::Easy, Difficulty::Hard].map(|difficulty| share(index, difficulty, pilot));
+            assert!(hard <= easy, "{name}: {pilot} wins {hard} on hard and {easy} on easy");
         }
         // Training on easy is for everybody.
         for difficulty in Difficulty::ALL.into_iter().filter(|&difficulty| index > 0 || difficulty != Difficulty::Easy) {
-            let shares = Crew::RATED.map(|crew| share(index, difficulty, crew));
+            let shares = PilotKind::RATED.map(|pilot| share(index, difficulty, pilot));
             assert!(shares != [0.0; 3] && shares != [1.0; 3], "{name}, {difficulty}: {shares:?}");
         }
     }
     for name in ["02-first-pursuit", "03-through-the-disk"] {
         let index = names.iter().position(|known| known == name).expect("a mission");
-        let naive = share(index, Difficulty::Easy, Crew::Naive);
+        let naive = share(index, Difficulty::Easy, PilotKind::Naive);
         assert!((0.4..=0.95).contains(&naive), "{name}: who plays for the first time wins {naive}");
     }
 }
 
 #[test]
 fn goals_are_reached_by_doing_them() {
-    let done = |goals: &str| fly(&mission(goals).expect("a mission"), Crew::Expert);
+    let done = |goals: &str| fly(&mission(goals).expect("a mission"), PilotKind::Expert);
     for goal in [
         "kind = \"burn\"\namount = 0.1",
         "kind = \"turn\"\nangle = 2.0",
@@ -207,7 +207,10 @@ fn what_comes_otherwise_than_expected_is_said() {
         let scene = format!("[expect]\nuntil = 5\n{text}\n[[ship]]\nname = \"a\"\norbit = {{ radius = 6 }}\n");
         check(&Scene::from_toml(Path::new("e.toml"), &scene).expect("a scene"), &GameConfig::default())
     };
-    assert!(matches!(expect("outcome = \"undecided\"\ntime = [5, 5]\nradius = [5.99, 6.01]\ndrift = [1e-9, 1e-9]"), Verdict::Held(_)));
+    assert!(matches!(
+        expect("outcome = \"undecided\"\ntime = [5, 5]\nradius = [5.99, 6.01]\ndrift = [1e-9, 1e-9]"),
+        CheckResult::AsExpected(_)
+    ));
     for wrong in ["outcome = \"caught\"", "time = [6, 7]", "own_time = [5, 6]", "radius = [6.1, 7]", "hash = \"0123456789abcdef\""] {
         assert!(expect(wrong).is_failure(), "{wrong}");
     }
@@ -225,16 +228,16 @@ fn bolts_fall_freely_and_end() {
     let scene = scene::load("06-the-long-shot").expect("a mission");
     let config = scene.config(&GameConfig::default(), Difficulty::Easy);
     let mut app = app_of(&scene, &config, 0);
-    *app.world_mut().resource_mut::<lensrunner::sim::Hands>() =
-        lensrunner::sim::Hands { autopilot: false, assist: false, ..Default::default() };
+    *app.world_mut().resource_mut::<lensrunner::sim::PlayerCommands>() =
+        lensrunner::sim::PlayerCommands { autopilot: false, assist: false, ..Default::default() };
     let ship = app.world().resource::<Fleet>().0[0];
     app.world_mut().get_mut::<Trigger>(ship).expect("armed").pulled = true;
     app.world_mut().run_schedule(FixedUpdate);
-    // The hands pull the trigger now, and they do not.
+    // The player pulls the trigger now, and they do not.
     assert!(app.world().resource::<Bolts>().0.is_empty());
-    app.world_mut().resource_mut::<lensrunner::sim::Hands>().fire = true;
+    app.world_mut().resource_mut::<lensrunner::sim::PlayerCommands>().fire = true;
     app.world_mut().run_schedule(FixedUpdate);
-    app.world_mut().resource_mut::<lensrunner::sim::Hands>().fire = false;
+    app.world_mut().resource_mut::<lensrunner::sim::PlayerCommands>().fire = false;
     let bolt = app.world().resource::<Bolts>().0[0].clone();
     let (e, l) = (energy(&bolt.state), angular_momentum(&bolt.state));
     (0..1400).for_each(|_| app.world_mut().run_schedule(FixedUpdate));

@@ -3,8 +3,8 @@
 
 use bevy::app::FixedUpdate;
 use glam::DVec3;
-use lensrunner::scene::crew::Crew;
 use lensrunner::scene::mission::Difficulty;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::history::rotation;
 use lensrunner::sim::{Fleet, History, Ship, app_of, board, outcome};
@@ -35,12 +35,12 @@ fn rates(history: &History, clock_step: f64, steps: usize) -> Vec<(DVec3, f64)> 
 #[test]
 fn no_vertex_is_faster_than_a_quarter_of_light_and_no_turn_begins_at_once() {
     let mut fastest: f64 = 0.0;
-    for (name, pace, crew) in [
-        ("02-first-pursuit", 0.05, Crew::Hands),
-        ("02-first-pursuit", 0.375, Crew::Hands),
-        ("06-the-long-shot", 1.5, Crew::Hands),
-        ("06-the-long-shot", 0.05, Crew::Expert),
-        ("09-two-of-them", 0.05, Crew::Naive),
+    for (name, pace, pilot) in [
+        ("02-first-pursuit", 0.05, PilotKind::Hands),
+        ("02-first-pursuit", 0.375, PilotKind::Hands),
+        ("06-the-long-shot", 1.5, PilotKind::Hands),
+        ("06-the-long-shot", 0.05, PilotKind::Expert),
+        ("09-two-of-them", 0.05, PilotKind::Naive),
     ] {
         let scene = scene::load(name).unwrap();
         let mut config = GameConfig::default();
@@ -48,7 +48,7 @@ fn no_vertex_is_faster_than_a_quarter_of_light_and_no_turn_begins_at_once() {
         config.ship.turn_rate = 20.0;
         let config = scene.config(&config, Difficulty::Normal);
         let mut app = app_of(&scene, &config, 3);
-        board(app.world_mut(), crew);
+        board(app.world_mut(), pilot);
         let mut steps = 0;
         while steps < 600 && outcome(app.world()).is_none() {
             app.world_mut().run_schedule(FixedUpdate);
@@ -86,7 +86,7 @@ fn seeded_hands_fly_again_what_they_flew() {
     use lensrunner::sim::replay::record;
     use lensrunner::sim::run::RunRequest;
     let scene = scene::load("06-the-long-shot").unwrap();
-    let request = |seed| RunRequest { crew: Crew::Hands, seed, until: Some(10.0), ..RunRequest::default() };
+    let request = |seed| RunRequest { pilot: PilotKind::Hands, seed, until: Some(10.0), ..RunRequest::default() };
     let [(first, replay), (again, _), (other, _)] = [1, 1, 2].map(|seed| record(&scene, &GameConfig::default(), &request(seed)));
     assert_eq!(first, again);
     assert_ne!(first.hash, other.hash);

@@ -1,7 +1,7 @@
 //! The exact joining of points by light, judged by a plain numerical integration of the orbit, by tabulated values and by laws.
 
 use lensrunner::spacetime::light::{
-    Branch, Connection, Fate, Order, connect, follow, join, join_near, launch, rain_angle, rain_momentum, shadow_angle, sky_angle,
+    Branch, Connection, Order, SweepEnd, connect, follow, join, join_near, launch, rain_angle, rain_momentum, shadow_angle, sky_angle,
     sky_slope, static_angle, static_redshift, swept_to_sky,
 };
 use proptest::prelude::*;
@@ -306,7 +306,7 @@ proptest! {
         let ray = join(1.0 / r, n.swept(phi), 1.0 / l, Branch::Plus).expect("seen");
         prop_assume!(l > 1.0);
         match follow(1.0 / l, ray.slope, n.swept(phi)) {
-            Fate::At { u, slope } => {
+            SweepEnd::At { u, slope } => {
                 prop_assert!((u * r - 1.0).abs() < 1e-9 * r.max(1.0));
                 prop_assert!((slope - ray.emission_slope).abs() < 1e-9 * (1.0 + slope.abs()));
             }

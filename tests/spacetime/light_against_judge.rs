@@ -59,8 +59,8 @@ fn point(rng: &mut StdRng, outside: bool) -> Point {
 /// The largest disagreements of a group, in ψ, delay, and the slope of the ray where it leaves the point.
 fn compare(points: Vec<Point>, order: u32, branch: light::Branch) -> usize {
     let judged_branch = match branch {
-        light::Branch::Plus => lensrunner::judge::Branch::Plus,
-        light::Branch::Minus => lensrunner::judge::Branch::Minus,
+        light::Branch::Plus => lensrunner::judge::EnergySign::Plus,
+        light::Branch::Minus => lensrunner::judge::EnergySign::Minus,
     };
     let judged: Vec<_> = points
         .par_iter()
@@ -162,8 +162,8 @@ fn the_shadow() {
             let look = DVec3::new(f64::cos(psi), f64::sin(psi), 0.0);
             let exact = light::sky_angle(psi, 1.0 / camera);
             match (exact, lensrunner::judge::fate(DVec3::X * camera, look, 1e-17)) {
-                (None, lensrunner::judge::Fate::Captured) => {}
-                (Some(exact), lensrunner::judge::Fate::Escaped { swept, .. }) => {
+                (None, lensrunner::judge::RayFate::Captured) => {}
+                (Some(exact), lensrunner::judge::RayFate::Escaped { swept, .. }) => {
                     // Near the edge the swept angle is a logarithm of the distance from it, and ψ itself has been rounded.
                     let rounding = 1e-14 / (psi - edge).abs() * (PI / (PI - edge));
                     assert!((exact - swept).abs() <= TOLERANCE + rounding, "L {camera} psi {psi}: {exact} and {swept}");

@@ -3,7 +3,7 @@
 use crate::say::say;
 use std::path::PathBuf;
 
-use super::experiment::{self, ExperimentRequest, Row, View};
+use super::experiment::{self, ExperimentRequest, Row, Viewpoint};
 use crate::chart::{ChartError, Output, Provenance, Sheet};
 use crate::plot::{Axis, Bars, Figure, Guide, Line, Lines, Panel, Point, Scatter, Series};
 
@@ -98,7 +98,7 @@ const LEAST_DIFFERENCE: f64 = 1e-7;
 pub fn draw(sheet: &Sheet) -> Figure {
     let shown = Shown::new(sheet);
     let measured = distinct(sheet, "view");
-    let views: Vec<&str> = View::ALL.iter().map(|(_, name)| *name).filter(|name| measured.iter().any(|view| view == name)).collect();
+    let views: Vec<&str> = Viewpoint::ALL.iter().map(|(_, name)| *name).filter(|name| measured.iter().any(|view| view == name)).collect();
     let panels = views.iter().flat_map(|view| [shown.times(view), shown.errors(view), shown.differences(view), shown.factors(view)]);
     Figure {
         verdict: verdict(sheet),

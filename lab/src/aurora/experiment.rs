@@ -8,15 +8,15 @@ use glam::DVec3;
 
 use super::eye::{Eye, Planet};
 use super::lattice::Lattice;
-use super::sheet::{Falls, Sheet, Streak, field_direction};
-use super::splat::{Gaussian, Picture};
+use super::sheet::{Falls, FlatAurora, Streak, field_direction};
+use super::splat::{Gaussian, SplatPicture};
 use super::truth::Emission;
 use super::walk::{Method, Walker};
 use lensrunner::lensing::{Slice, Table};
 
 /// From where the auroras are seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum View {
+pub enum Viewpoint {
     /// From the ground 700 km to the south.
     Side,
     /// From the ground under the arcs, along the field.
@@ -27,22 +27,23 @@ pub enum View {
     Bent,
 }
 
-impl View {
+impl Viewpoint {
     /// All of them, and their names.
-    pub const ALL: [(View, &'static str); 4] = [(View::Side, "side"), (View::Below, "below"), (View::Orbit, "orbit"), (View::Bent, "bent")];
+    pub const ALL: [(Viewpoint, &'static str); 4] =
+        [(Viewpoint::Side, "side"), (Viewpoint::Below, "below"), (Viewpoint::Orbit, "orbit"), (Viewpoint::Bent, "bent")];
 
     /// The camera of the view; `table` is used by the bent one alone.
     pub fn eye(self, size: [usize; 2], table: &Table) -> Eye {
         let degrees = |d: f64| d.to_radians();
         match self {
-            View::Side => Eye::flat(DVec3::new(0.0, -700.0, 1.0), DVec3::new(0.0, 0.0, 190.0), DVec3::Z, degrees(45.0), size),
-            View::Below => {
+            Viewpoint::Side => Eye::flat(DVec3::new(0.0, -700.0, 1.0), DVec3::new(0.0, 0.0, 190.0), DVec3::Z, degrees(45.0), size),
+            Viewpoint::Below => {
                 let up = field_direction();
                 let foot = DVec3::new(10.0, 32.0, 1.0);
                 Eye::flat(foot, foot + up * 100.0, DVec3::Y, degrees(90.0), size)
             }
-            View::Orbit => Eye::flat(DVec3::new(250.0, -500.0, 900.0), DVec3::new(0.0, 20.0, 130.0), DVec3::Z, degrees(40.0), size),
-            View::Bent => {
+            Viewpoint::Orbit => Eye::flat(DVec3::new(250.0, -500.0, 900.0), DVec3::new(0.0, 20.0, 130.0), DVec3::Z, degrees(40.0), size),
+            Viewpoint::Bent => {
                 // A planet of 0.8 r_s on the other side of the hole, 25 r_s out, seen past it from 12 r_s.
                 let planet = Planet { at: DVec3::new(6.0, 0.0, -24.0), radius: 0.8, facing: DVec3::new(-0.5, -0.3, 0.8) };
                 Eye::bent(Slice::new(table, 12.0), 12.0, &planet, degrees(0.32), size, 1)
@@ -70,7 +71,7 @@ pub struct Job<'a> {
 #[derive(Clone, Debug)]
 pub struct Timed {
     /// The picture.
-    pub picture: Picture,
+    pub picture: SplatPicture,
     /// From electrons to points.
     pub walk: f64,
     /// From points to the picture.
@@ -90,7 +91,7 @@ pub fn draw(method: Method, job: &Job, gaussian: &Gaussian) -> Timed {
     let lattice = (method == Method::Exact && job.eye.bent.is_some()).then(|| Lattice::around(job.eye, job.streaks, TOLERANCE));
     let walker = Walker::new(job.eye, job.falls, lattice.as_ref(), job.seed);
     let mut walk = start.elapsed().as_secs_f64();
-    let mut picture = Picture::new(job.eye.size);
+    let mut picture = SplatPicture::new(job.eye.size);
     let mut points = Vec::new();
     for streaks in job.streaks.chunks(TOGETHER) {
         let before = Instant::now();
@@ -146,11 +147,11 @@ pub struct Row {
 pub fn run(request: &ExperimentRequest, table: &Table, mut report: impl FnMut(&str)) -> Vec<Row> {
     let falls = Falls::new();
     let gaussian = Gaussian::default();
-    let sheets = Sheet::ten();
+    let sheets = FlatAurora::ten();
     let sheets = &sheets[..request.auroras.clamp(1, 10)];
     let judge = request.counts.iter().max().map_or(JUDGE[0], |&count| (10u32.saturating_mul(count)).clamp(JUDGE[0], JUDGE[1]));
     let mut rows = Vec::new();
-    for (view, name) in View::ALL {
+    for (view, name) in Viewpoint::ALL {
         let eye = view.eye(request.size, table);
         for &radius in &request.radii {
             let site = Site { name, eye: &eye, falls: &falls, radius, gaussian: &gaussian };
@@ -179,8 +180,8 @@ struct Site<'a> {
 
 /// An aurora, and the picture of it as it should be.
 struct Aurora<'a> {
-    sheet: &'a Sheet,
-    truth: Picture,
+    sheet: &'a FlatAurora,
+    truth: SplatPicture,
 }
 
 impl<'a> Site<'a> {
@@ -190,13 +191,13 @@ impl<'a> Site<'a> {
 
     /// The picture as it should be. Through bent light there is no line integral to judge by but the particle method itself: `judge`
     /// electrons of another seed.
-    fn truth(&self, sheet: &Sheet, judge: u32) -> Picture {
+    fn truth(&self, sheet: &FlatAurora, judge: u32) -> SplatPicture {
         if self.eye.bent.is_none() {
             let radius = f64::from(self.radius);
             return Emission::new(sheet, self.falls, radius).picture(self.eye, 0.5 * radius.min(1.5));
         }
         let seed = sheet.seed + 7000;
-        let streaks = Sheet { seed, ..sheet.clone() }.streaks(judge);
+        let streaks = FlatAurora { seed, ..sheet.clone() }.streaks(judge);
         draw(Method::Particles, &self.job(&streaks, seed), self.gaussian).picture
     }
 

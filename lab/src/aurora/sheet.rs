@@ -110,7 +110,7 @@ pub struct Streak {
 
 /// An aurora in the flat patch.
 #[derive(Clone, Debug)]
-pub struct Sheet {
+pub struct FlatAurora {
     /// Curves in the plane across the field; (x, y) is where the field line passes the reference height, relative to the patch's middle.
     pub curves: Vec<Curve>,
     /// The energies.
@@ -125,14 +125,14 @@ pub fn field_direction() -> DVec3 {
     DVec3::new(0.0, -dip.cos(), dip.sin())
 }
 
-impl Sheet {
+impl FlatAurora {
     /// Ten different auroras, as the experiment of Sekiguchi et al. has: quiet arcs, folds, curls and several curtains.
-    pub fn ten() -> Vec<Sheet> {
-        (0..10).map(Sheet::numbered).collect()
+    pub fn ten() -> Vec<FlatAurora> {
+        (0..10).map(FlatAurora::numbered).collect()
     }
 
     /// One of the ten.
-    pub fn numbered(number: u32) -> Sheet {
+    pub fn numbered(number: u32) -> FlatAurora {
         let random = |k: u32| f64::from(uniform(900 + number, k, 0));
         let count = 1 + number as usize % 3;
         let curves = (0..count as u32)
@@ -149,7 +149,7 @@ impl Sheet {
                 }
             })
             .collect();
-        Sheet {
+        FlatAurora {
             curves,
             spectrum: Spectrum { accelerated: 1.0 + f64::from(number), thermal: 0.3 + 0.2 * f64::from(number % 4) },
             seed: number + 1,

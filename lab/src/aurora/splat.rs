@@ -5,7 +5,7 @@ use super::walk::Point;
 
 /// Photons of each of the four lines per pixel.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub struct SplatPicture {
     /// Width and height, pixels.
     pub size: [usize; 2],
     /// Row by row.
@@ -32,10 +32,10 @@ impl Default for Gaussian {
     }
 }
 
-impl Picture {
+impl SplatPicture {
     /// A black one.
     pub fn new(size: [usize; 2]) -> Self {
-        Picture { size, pixels: vec![[0.0; 4]; size[0] * size[1]] }
+        SplatPicture { size, pixels: vec![[0.0; 4]; size[0] * size[1]] }
     }
 
     /// Adds points, each a blob of light of standard deviation `radius` km.
@@ -83,8 +83,8 @@ impl Picture {
     }
 
     /// Root mean square of the difference over that of the other, in the green line, after both have been brought to the same total.
-    pub fn error(&self, truth: &Picture) -> f64 {
-        let green = |picture: &Picture| picture.pixels.iter().map(|p| f64::from(p[0])).sum::<f64>();
+    pub fn error(&self, truth: &SplatPicture) -> f64 {
+        let green = |picture: &SplatPicture| picture.pixels.iter().map(|p| f64::from(p[0])).sum::<f64>();
         let scale = green(truth) / green(self).max(1e-300);
         let (mut difference, mut total) = (0.0, 0.0);
         for (a, b) in self.pixels.iter().zip(&truth.pixels) {

@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::eye::Eye;
-use super::sheet::{BOTTOM, FALLS, Falls, LEVELS, Sheet, TOP, field_direction, level_height, reach_row};
-use super::splat::Picture;
+use super::sheet::{BOTTOM, FALLS, Falls, FlatAurora, LEVELS, TOP, field_direction, level_height, reach_row};
+use super::splat::SplatPicture;
 use lensrunner::scene::aurora::dipole::REFERENCE_HEIGHT;
 use lensrunner::scene::aurora::{fall, lines};
 
@@ -32,7 +32,7 @@ pub struct Emission {
 
 impl Emission {
     /// The emission of `sheet` blurred by blobs of standard deviation `radius` km.
-    pub fn new(sheet: &Sheet, falls: &Falls, radius: f64) -> Emission {
+    pub fn new(sheet: &FlatAurora, falls: &Falls, radius: f64) -> Emission {
         let seeds: Vec<DVec2> = (0..SEEDS)
             .flat_map(|k| {
                 // The plastic number's lattice fills the square evenly (Roberts 2018).
@@ -82,12 +82,12 @@ impl Emission {
     }
 
     /// The picture in flat space, up to a constant factor.
-    pub fn picture(&self, eye: &Eye, step: f64) -> Picture {
+    pub fn picture(&self, eye: &Eye, step: f64) -> SplatPicture {
         let up = field_direction();
         let axes = eye.axes.as_dmat3().transpose();
         let position = eye.position.as_dvec3();
         let [width, height] = eye.size;
-        let mut picture = Picture::new(eye.size);
+        let mut picture = SplatPicture::new(eye.size);
         picture.pixels.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
             for (x, pixel) in row.iter_mut().enumerate() {
                 let direction = axes
@@ -115,7 +115,7 @@ impl Emission {
 }
 
 /// Photons by line per electron and km of height, averaged over spectrum and pitch, blurred.
-fn profile(sheet: &Sheet, falls: &Falls, radius: f64, bottom: f64) -> Vec<[f64; 4]> {
+fn profile(sheet: &FlatAurora, falls: &Falls, radius: f64, bottom: f64) -> Vec<[f64; 4]> {
     // The spread of reaches by quasi-random draws: what the walk draws from, by another lattice.
     let mut weights = vec![0.0; FALLS];
     let draws = 20_000u32;

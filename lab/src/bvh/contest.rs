@@ -3,7 +3,7 @@
 use super::others::{Obvhs, Svenstaro};
 use super::rays::{Job, SIZES};
 use crate::chart::ChartError;
-use crate::straight::{EyePacket, EyePackets, Hit, Mesh, Packets, Ray, Settings, Wide, order};
+use crate::straight::{BvhSettings, EyePacket, EyePackets, Hit, Mesh, Packets, Ray, Wide, order};
 
 /// All trees over one scene.
 pub struct Built {
@@ -19,7 +19,7 @@ impl Built {
     pub fn new(job: &Job) -> Result<Built, ChartError> {
         let triangles = &job.scene.triangles;
         Ok(Built {
-            mesh: Mesh::new(triangles, &Settings::default()),
+            mesh: Mesh::new(triangles, &BvhSettings::default()),
             wide: Wide::new(triangles),
             obvhs: Obvhs::new(triangles),
             svenstaro: Svenstaro::new(triangles),

@@ -6,7 +6,7 @@ use rand::{RngExt, SeedableRng};
 
 use super::{BvhRequest, SCENES};
 use crate::chart::ChartError;
-use crate::straight::scenes::{Scene, bunny, castle, spd};
+use crate::straight::scenes::{TestScene, bunny, castle, spd};
 use crate::straight::{Hit, Ray, Wide, order};
 
 /// Width and height of the picture.
@@ -17,7 +17,7 @@ pub const SIZES: [usize; 6] = [2, 4, 8, 16, 32, 64];
 
 /// A scene with the rays that it is measured with.
 pub struct Job {
-    pub scene: Scene,
+    pub scene: TestScene,
     /// Whether the bunny is not the bunny.
     pub stand_in: bool,
     /// The camera's axes to the right and upwards.
@@ -43,7 +43,7 @@ impl Job {
             _ => (spd::balls(4), spd::BALLS_VIEW.from_distance(4.0)),
         };
         let name = SCENES.into_iter().find(|scene| *scene == name).unwrap_or_default();
-        let scene = Scene { name, triangles, view };
+        let scene = TestScene { name, triangles, view };
         let forward = (DVec3::from(view.target) - DVec3::from(view.eye)).normalize();
         let right = forward.cross(DVec3::Z).normalize();
         let screen = [right, right.cross(forward)].map(|axis| axis.as_vec3().to_array());
@@ -55,7 +55,7 @@ impl Job {
 }
 
 /// Shadow rays to a light, mirrored rays, and rays in random directions, from every first hit.
-fn secondary(scene: &Scene, primary: &[Ray]) -> Vec<(&'static str, Vec<Ray>)> {
+fn secondary(scene: &TestScene, primary: &[Ray]) -> Vec<(&'static str, Vec<Ray>)> {
     let rays: Vec<Ray> = order::tiles(SIZE, 32).0.iter().map(|&i| primary[i as usize]).collect();
     let mut hits = vec![Hit::MISS; rays.len()];
     Wide::new(&scene.triangles).closest_each(&rays, &mut hits);

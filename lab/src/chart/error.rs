@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use lensrunner::render::DeviceError;
 use lensrunner::render::gpu::readback::PictureError;
-use lensrunner::render::quality::prices::PricesError;
+use lensrunner::render::quality::costs::QualityCostsError;
 use lensrunner::render::shot::ShotError;
 use lensrunner::scene::{ConfigError, SceneError};
 use lensrunner::spacetime::orbit::OrbitError;
@@ -36,9 +36,9 @@ pub enum ChartError {
     /// A flight has no start.
     #[error(transparent)]
     Orbit(#[from] OrbitError),
-    /// The measured prices do not make a table.
+    /// The measured costs do not make a table.
     #[error(transparent)]
-    Prices(#[from] PricesError),
+    QualityCosts(#[from] QualityCostsError),
     /// A CSV cannot be read or written.
     #[error(transparent)]
     Sheet(#[from] SheetError),

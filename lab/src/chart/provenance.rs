@@ -33,7 +33,7 @@ impl Provenance {
     }
 
     /// What the notes of a sheet say; None if they name no commit.
-    pub fn told(notes: &[(String, String)]) -> Option<Provenance> {
+    pub fn from_notes(notes: &[(String, String)]) -> Option<Provenance> {
         let text = |name: &str| notes.iter().find(|(n, _)| n == name).map(|(_, text)| text.clone());
         let [processor, adapter, date, commit, command] = NOTES.map(text);
         let all = |text: Option<String>| text.unwrap_or_default();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::Frame;
+use super::ContestantFrame;
 use super::collect::{COLUMNS, add, moments};
 use super::measure::metrics::{Limits, compare};
 use super::measure::narrow;
@@ -14,13 +14,13 @@ use super::report::{side_by_side, table};
 use crate::chart::{Sheet, SheetError};
 use crate::flip::flip;
 use lensrunner::judge::case::{Case, TraceError, TraceRequest};
-use lensrunner::judge::picture::{Picture, Quality};
+use lensrunner::judge::picture::{Sampling, TracedPicture};
 use lensrunner::picture_file::{PictureFileError, check_writable, write_png};
 use lensrunner::scene;
 use lensrunner::scene::Model;
 
 /// Draws the case with the renderer that is to be judged.
-pub type Contestant<'a> = dyn Fn(&Case) -> Result<Frame, String> + 'a;
+pub type DrawCase<'a> = dyn Fn(&Case) -> Result<ContestantFrame, String> + 'a;
 
 /// Why there is no verdict.
 #[derive(Debug, thiserror::Error)]
@@ -61,7 +61,7 @@ pub const ALL: &str = "all";
 
 /// Judges every scene of the project, at each of its times, into the folder `output`: pictures side by side, and the table of all verdicts.
 /// Scenes without anything solid get the rays that colours need. Gives what goes beyond the limits, and what could not be judged.
-pub fn run_all(request: &TraceRequest, config: Option<&Path>, output: &Path, contestant: &Contestant) -> Result<Vec<String>, CompareError> {
+pub fn run_all(request: &TraceRequest, config: Option<&Path>, output: &Path, contestant: &DrawCase) -> Result<Vec<String>, CompareError> {
     let mut faults = Vec::new();
     for (scene, at) in moments() {
         let name = if at == 0.0 { format!("{scene}.png") } else { format!("{scene}-{at}.png") };
@@ -89,7 +89,7 @@ pub fn run(
     config: Option<&Path>,
     output: &Path,
     collected: Option<&Path>,
-    contestant: &Contestant,
+    contestant: &DrawCase,
 ) -> Result<Vec<String>, CompareError> {
     request.check()?;
     let config = scene::config::find(config).map_err(TraceError::from)?;
@@ -103,7 +103,7 @@ pub fn run_case(
     request: &TraceRequest,
     output: &Path,
     collected: Option<&Path>,
-    contestant: &Contestant,
+    contestant: &DrawCase,
 ) -> Result<Vec<String>, CompareError> {
     // Before the work of which it would lose the result.
     if let Some(csv) = collected {
@@ -123,8 +123,8 @@ pub fn run_case(
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} pixels, {per_sec}, {eta} left") {
         bar.set_style(style);
     }
-    let quality = Quality { samples: side, tolerance: request.tolerance, packet: request.packet };
-    let judge = case.trace_within(&quality, true, request.limit, &|pixels| bar.inc(pixels));
+    let sampling = Sampling { samples: side, tolerance: request.tolerance, packet: request.packet };
+    let judge = case.trace_within(&sampling, true, request.limit, &|pixels| bar.inc(pixels));
     bar.finish_and_clear();
     let mut judge = judge.map_err(TraceError::from)?;
     if let Some(what) = judge.given_up_in_words() {
@@ -157,7 +157,7 @@ const COLOUR_SAMPLES: u32 = 16;
 /// The mean ꟻLIP that a picture may have: that of the judge's own picture moved by half a pixel along its rows, which every surface point
 /// may be displaced by, as linear filtering moves it: each pixel the mean of itself and its left neighbour, so what is as fine as a pixel
 /// also grows softer.
-pub fn colour_limit(judge: &Picture) -> f64 {
+pub fn colour_limit(judge: &TracedPicture) -> f64 {
     let width = judge.size[0] as usize;
     let moved: Vec<[f32; 3]> = (0..judge.light.len())
         .map(|i| {
@@ -170,11 +170,11 @@ pub fn colour_limit(judge: &Picture) -> f64 {
 }
 
 /// ꟻLIP of the two pictures, both exposed so that the judge's brightest hundredth is white.
-pub fn difference(judge: &Picture, frame: &Frame) -> Vec<f32> {
+pub fn difference(judge: &TracedPicture, frame: &ContestantFrame) -> Vec<f32> {
     contrast(judge, &frame.light)
 }
 
-fn contrast(judge: &Picture, light: &[[f32; 3]]) -> Vec<f32> {
+fn contrast(judge: &TracedPicture, light: &[[f32; 3]]) -> Vec<f32> {
     let mut peaks: Vec<f32> = judge.light.iter().map(|rgb| rgb.iter().copied().fold(0.0, f32::max)).filter(|peak| *peak > 0.0).collect();
     peaks.sort_by(f32::total_cmp);
     let white = peaks.get(peaks.len() * 99 / 100).copied().unwrap_or(1.0).max(1e-9);

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use lensrunner::judge::case::Case;
-use lensrunner::judge::picture::{Picture, Quality};
+use lensrunner::judge::picture::{Sampling, TracedPicture};
 
 /// When a piece of work must be over.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +54,7 @@ pub struct GaveUp {
 }
 
 /// The judge's picture, without the sky, if it is finished before the deadline.
-pub fn trace_within(case: &Case, quality: &Quality, deadline: &Deadline) -> Result<Picture, GaveUp> {
-    case.trace_within(quality, false, deadline.left(), &|_| {})
+pub fn trace_within(case: &Case, sampling: &Sampling, deadline: &Deadline) -> Result<TracedPicture, GaveUp> {
+    case.trace_within(sampling, false, deadline.left(), &|_| {})
         .map_err(|late| deadline.gave_up(format!("its picture was not finished ({} of {} pixels were)", late.pixels, late.all)))
 }

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-use super::Frame;
-use super::command::Contestant;
+use super::ContestantFrame;
+use super::command::DrawCase;
 use super::deadline::{Deadline, GaveUp, trace_within};
 use super::fault::{Fault, Kind, Limits};
 use super::measure::displacement::Effort;
@@ -13,7 +13,7 @@ use super::measure::metrics::{Verdict, compare_with};
 use super::measure::narrow::{grossly_wrong, see_again_but};
 use super::measure::probe::probe;
 use lensrunner::judge::case::Case;
-use lensrunner::judge::picture::{DEFAULT_PACKET, Picture, Quality};
+use lensrunner::judge::picture::{DEFAULT_PACKET, Sampling, TracedPicture};
 
 /// How a case is judged.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +44,7 @@ pub struct Judged {
     /// Whether there was anything to judge.
     pub solid: bool,
     /// The two pictures, of the renderer and of the judge.
-    pub pictures: Option<(Frame, Picture)>,
+    pub pictures: Option<(ContestantFrame, TracedPicture)>,
     /// Seconds for the renderer's picture.
     pub drawing: f64,
     /// Seconds for the judge's picture.
@@ -57,7 +57,7 @@ pub struct Judged {
 
 /// Draws the case and judges it with one ray a pixel, nine where images are narrow, by the limits of small pictures. An error if the judge
 /// ran out of time.
-pub fn judge(case: &Case, terms: &Terms, contestant: &Contestant) -> Result<Judged, GaveUp> {
+pub fn judge(case: &Case, terms: &Terms, contestant: &DrawCase) -> Result<Judged, GaveUp> {
     let started = Instant::now();
     let drawn = draw(case, contestant);
     let drawing = started.elapsed().as_secs_f64();
@@ -71,8 +71,8 @@ pub fn judge(case: &Case, terms: &Terms, contestant: &Contestant) -> Result<Judg
     };
     let deadline = Deadline::after(terms.seconds);
     let started = Instant::now();
-    let quality = Quality { samples: 1, tolerance: terms.tolerance, packet: DEFAULT_PACKET };
-    let mut judge = trace_within(case, &quality, &deadline)?;
+    let sampling = Sampling { samples: 1, tolerance: terms.tolerance, packet: DEFAULT_PACKET };
+    let mut judge = trace_within(case, &sampling, &deadline)?;
     let tracing = started.elapsed().as_secs_f64();
     let started = Instant::now();
     let verdict = measure(case, &frame, &mut judge, terms, &deadline)?;
@@ -95,7 +95,7 @@ pub fn judge(case: &Case, terms: &Terms, contestant: &Contestant) -> Result<Judg
 const MEASURING: f64 = 0.25;
 
 /// Sets the picture beside the judge's, which is looked at again where images are narrow.
-fn measure(case: &Case, frame: &Frame, judge: &mut Picture, terms: &Terms, deadline: &Deadline) -> Result<Verdict, GaveUp> {
+fn measure(case: &Case, frame: &ContestantFrame, judge: &mut TracedPicture, terms: &Terms, deadline: &Deadline) -> Result<Verdict, GaveUp> {
     let probe = probe(case, terms.tolerance);
     let gross: BTreeSet<_> = grossly_wrong(judge, frame);
     see_again_but(judge, frame, &probe, &gross, deadline);
@@ -113,7 +113,7 @@ fn measure(case: &Case, frame: &Frame, judge: &mut Picture, terms: &Terms, deadl
 }
 
 /// The renderer's picture, or why there is none; a panic is a reason.
-pub fn draw(case: &Case, contestant: &Contestant) -> Result<Frame, String> {
+pub fn draw(case: &Case, contestant: &DrawCase) -> Result<ContestantFrame, String> {
     catch_unwind(AssertUnwindSafe(|| contestant(case))).unwrap_or_else(|panic| {
         let text = panic.downcast_ref::<String>().cloned().or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()));
         Err(format!("it panicked: {}", text.unwrap_or_default()))

@@ -23,7 +23,7 @@ pub mod random;
 pub mod report;
 
 use lensrunner::judge::case::Case;
-use lensrunner::judge::picture::Picture;
+use lensrunner::judge::picture::TracedPicture;
 
 /// What a pixel of the contestant shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,7 +47,7 @@ impl Shown {
 
 /// The contestant's picture.
 #[derive(Clone, Debug)]
-pub struct Frame {
+pub struct ContestantFrame {
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Linear light with the sky.
@@ -58,9 +58,9 @@ pub struct Frame {
     pub shown: Vec<Shown>,
 }
 
-impl Frame {
+impl ContestantFrame {
     /// The judge's own picture as a contestant: what a perfect renderer would hand in, and what tests break on purpose.
-    pub fn of(picture: &Picture, case: &Case) -> Frame {
+    pub fn of(picture: &TracedPicture, case: &Case) -> ContestantFrame {
         let shown = picture.layers.iter().map(|layer| Shown {
             object: layer.object,
             order: layer.order,
@@ -68,6 +68,6 @@ impl Frame {
             coverage: if layer.object > 0 { 1.0 } else { 0.0 },
         });
         let bare = picture.light.iter().zip(&picture.open).map(|(rgb, open)| if *open < 1.0 { *rgb } else { [0.0; 3] });
-        Frame { size: picture.size, light: picture.light.clone(), bare: bare.collect(), shown: shown.collect() }
+        ContestantFrame { size: picture.size, light: picture.light.clone(), bare: bare.collect(), shown: shown.collect() }
     }
 }

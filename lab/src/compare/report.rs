@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use super::Frame;
+use super::ContestantFrame;
 use super::measure::metrics::{Limits, Verdict};
-use lensrunner::judge::picture::Picture;
-use lensrunner::judge::picture::post_process::{PostProcess, post_process};
+use lensrunner::judge::picture::TracedPicture;
+use lensrunner::judge::picture::post_process::{PostProcessSettings, post_process};
 
 /// The verdict as a table, with what goes beyond the limits below.
 pub fn table(verdict: &Verdict, limits: &Limits, faults: &[String]) -> String {
@@ -74,7 +74,13 @@ pub fn said(verdict: &Verdict, limits: &Limits, faults: &[String]) -> &'static s
 
 /// In a row: the contestant's picture, the judge's, and from black over red and yellow to white the ꟻLIP of each pixel (white: 1) and its
 /// displacement (white: 1.5 pixels). Both pictures are finished alike, by themselves. Gives size and sRGB bytes.
-pub fn side_by_side(judge: &Picture, frame: &Frame, difference: &[f32], displaced: &[f32], how: &PostProcess) -> ([u32; 2], Vec<u8>) {
+pub fn side_by_side(
+    judge: &TracedPicture,
+    frame: &ContestantFrame,
+    difference: &[f32],
+    displaced: &[f32],
+    how: &PostProcessSettings,
+) -> ([u32; 2], Vec<u8>) {
     let [width, height] = judge.size;
     let pictures = [post_process(&frame.light, frame.size, how), post_process(&judge.light, judge.size, how)];
     let map: Vec<u8> = difference.iter().flat_map(|d| heat(*d)).collect();

@@ -1,11 +1,11 @@
 //! Predictions against measurements, at moments and rungs that nobody chose.
 
-use lensrunner::render::quality::knobs::turned;
+use lensrunner::render::quality::costs::{QualityCosts, SceneClass};
 use lensrunner::render::quality::ladder::ladder;
-use lensrunner::render::quality::prices::{Prices, SceneClass};
+use lensrunner::render::quality::options::turned;
 use rand::RngExt;
 
-use super::moments::{Case, begin, case, scenes};
+use super::moments::{MomentCase, begin, case, scenes};
 use super::{DialRequest, Keep, empty};
 use crate::chart::{ChartError, Sheet};
 
@@ -23,7 +23,7 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
     let classes: Vec<_> = SceneClass::ALL.into_iter().map(|class| Ok((class, scenes(class)?))).collect::<Result<_, ChartError>>()?;
     for number in 0..request.moments {
         let (class, scenes) = &classes[number % classes.len()];
-        let rungs = ladder(Prices::shipped(), *class);
+        let rungs = ladder(QualityCosts::shipped(), *class);
         let case = case(scenes, &mut rng).ok_or_else(|| empty(class.name()))?;
         let place = rng.random_range(1..rungs.len().max(2));
         let Some(rung) = rungs.get(place) else { continue };
@@ -33,7 +33,7 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
         let finest = bench.finest(&mut shown, &asked)?;
         let [error, time, beside] = bench.beside(&mut shown, &finest, &asked, &turned(&asked, &rung.steps))?;
         let steps = rung.steps.map(|step| step.to_string()).join(" ");
-        let (class, Case { scene, at, .. }, [told, share]) = (class.name(), &case, [rung.error, rung.time]);
+        let (class, MomentCase { scene, at, .. }, [told, share]) = (class.name(), &case, [rung.error, rung.time]);
         sheet.line(format_args!("{class}|{scene}|{at}|{}|{steps}|{told:.5}|{error:.5}|{share:.4}|{:.4}", place + 1, time / beside));
         keep(&sheet)?;
     }

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use lensrunner::play::picture::quality::{LOW, MEDIUM};
+use lensrunner::render::quality::costs::{QualityCosts, SceneClass};
 use lensrunner::render::quality::ladder::ladder;
-use lensrunner::render::quality::prices::{Prices, SceneClass};
 
 use super::check::verdict;
 use super::levels;
@@ -12,10 +12,10 @@ use crate::chart::{ChartError, Output, Provenance, Sheet};
 use crate::plot::{Axis, Figure, Guide, Line, Lines, Panel, Point, Scatter};
 
 /// Draws `dial.svg` and `dial.png`; `checked` is the sheet of the check.
-pub fn draw(prices: &Prices, checked: &Sheet, output: &Output) -> Result<[PathBuf; 2], ChartError> {
+pub fn draw(costs: &QualityCosts, checked: &Sheet, output: &Output) -> Result<[PathBuf; 2], ChartError> {
     let front = SceneClass::ALL.map(|class| Line {
         name: class.name().to_owned(),
-        points: ladder(prices, class).iter().skip(1).map(|rung| [100.0 * rung.time, rung.error]).collect(),
+        points: ladder(costs, class).iter().skip(1).map(|rung| [100.0 * rung.time, rung.error]).collect(),
         dots: true,
         ..Line::default()
     });

@@ -1,13 +1,13 @@
 //! The whole frame at the levels that players choose between: measured error against time, beside everything at its finest.
 
 use lensrunner::play::picture::quality::{LOW, MEDIUM};
-use lensrunner::render::quality::knobs::turned;
-use lensrunner::render::quality::ladder::{Rung, ladder, within};
-use lensrunner::render::quality::prices::Prices;
+use lensrunner::render::quality::costs::QualityCosts;
+use lensrunner::render::quality::ladder::{QualityRung, ladder, within};
+use lensrunner::render::quality::options::turned;
 use lensrunner::render::settings::Settings;
 use lensrunner::scene;
 
-use super::moments::{Case, begin, class_of};
+use super::moments::{MomentCase, begin, class_of};
 use super::{DialRequest, Keep};
 use crate::chart::{ChartError, Sheet};
 
@@ -32,7 +32,7 @@ pub fn everything(configured: &Settings) -> Settings {
     Settings { resolution, pixel_error, orders, halvings, least_width, coarse_below, faintest_star, smooth, ..*configured }
 }
 
-fn rung_of(level: &str, rungs: &[Rung]) -> usize {
+fn rung_of(level: &str, rungs: &[QualityRung]) -> usize {
     match level {
         "high" => 0,
         "medium" => within(rungs, MEDIUM),
@@ -47,8 +47,8 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
     for number in 0..request.moments {
         for scene in SCENES {
             let class = class_of(&scene::load(scene)?);
-            let rungs = ladder(Prices::shipped(), class);
-            let case = Case { scene: scene.to_owned(), at: number as f64 * STEP, seed: request.seed(), turn: [0.0; 2] };
+            let rungs = ladder(QualityCosts::shipped(), class);
+            let case = MomentCase { scene: scene.to_owned(), at: number as f64 * STEP, seed: request.seed(), turn: [0.0; 2] };
             eprintln!("{}/{}: {scene} at T = {}", number + 1, request.moments, case.at);
             let mut shown = bench.show(&case)?;
             let asked = shown.finest;

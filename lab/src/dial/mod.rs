@@ -1,7 +1,7 @@
-//! What each step of each knob of the picture's quality costs and saves, and whether the predictions made from that hold: `chart dial`.
+//! What each step of each option of the picture's quality costs and saves, and whether the predictions made from that hold: `chart dial`.
 //!
 //! - [`moments`]: scenes, times and cameras at random, by class; frames of them.
-//! - [`prices`]: the price list that the game reads (`tables/quality.csv`).
+//! - [`costs`]: the cost table that the game reads (`tables/quality.csv`).
 //! - [`check`]: rungs chosen at random, predicted and measured.
 //! - [`levels`]: the levels that players choose between, and everything at its finest.
 //! - [`moving`]: frames one after the other, with a rung that changes and without.
@@ -10,24 +10,24 @@
 //! The error is mean FLIP from the finest picture of the same size, which the judge holds to half a pixel ([`crate::compare`]).
 
 pub mod check;
+pub mod costs;
 pub mod draw;
 pub mod levels;
 pub mod moments;
 pub mod moving;
-pub mod prices;
 
 use std::path::PathBuf;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use clap::Args;
 use lensrunner::argument::whole;
-use lensrunner::render::quality::prices::Prices;
+use lensrunner::render::quality::costs::QualityCosts;
 use lensrunner::scene::picture_size;
 
 use crate::chart::{ChartError, Output, Sheet, SheetError};
 use crate::say::say;
 
-/// What each knob of the picture's quality costs and saves: the price list that the game reads (quality.csv); with --check whether the
+/// What each option of the picture's quality costs and saves: the cost table that the game reads (quality.csv); with --check whether the
 /// predictions from the game's own list hold, and the chart.
 #[derive(Args, Clone, Debug)]
 pub struct DialRequest {
@@ -78,10 +78,10 @@ pub fn run(request: &DialRequest) -> Result<Vec<PathBuf>, ChartError> {
     if request.check {
         let sheet = sheet("dial-check", check::measure)?;
         say(check::verdict(&sheet));
-        return Ok(draw::draw(Prices::shipped(), &sheet, output)?.to_vec());
+        return Ok(draw::draw(QualityCosts::shipped(), &sheet, output)?.to_vec());
     }
-    let (sheet, file) = (sheet("dial", prices::measure)?, output.csv("quality"));
-    std::fs::write(&file, prices::table(&sheet)?).map_err(|error| ChartError::Write(file.clone(), error.to_string()))?;
+    let (sheet, file) = (sheet("dial", costs::measure)?, output.csv("quality"));
+    std::fs::write(&file, costs::table(&sheet)?).map_err(|error| ChartError::Write(file.clone(), error.to_string()))?;
     Ok(vec![file])
 }
 

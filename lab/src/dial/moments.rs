@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use glam::DQuat;
 use lensrunner::render::Gpu;
-use lensrunner::render::quality::prices::SceneClass;
+use lensrunner::render::quality::costs::SceneClass;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::shot::Moment;
 use lensrunner::render::stage::{Stage, settings};
@@ -44,7 +44,7 @@ pub(super) fn begin(request: &DialRequest, columns: &[&str]) -> Result<(Bench, S
 
 /// One moment.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Case {
+pub struct MomentCase {
     /// The scene's name.
     pub scene: String,
     /// T, in r_s/c.
@@ -75,10 +75,10 @@ pub fn scenes(class: SceneClass) -> Result<Vec<Scene>, ChartError> {
 }
 
 /// A moment of one of these scenes.
-pub fn case(scenes: &[Scene], rng: &mut SmallRng) -> Option<Case> {
+pub fn case(scenes: &[Scene], rng: &mut SmallRng) -> Option<MomentCase> {
     (0..TRIES).find_map(|_| {
         let scene = scenes.get(rng.random_range(0..scenes.len().max(1)))?;
-        let case = Case {
+        let case = MomentCase {
             scene: scene.name.clone(),
             at: (rng.random::<f64>() * LATEST * 32.0).round() / 32.0,
             seed: rng.next_u64() >> 32,
@@ -125,7 +125,7 @@ impl Bench {
     }
 
     /// Uploads a moment.
-    pub fn show(&mut self, case: &Case) -> Result<Shown, ChartError> {
+    pub fn show(&mut self, case: &MomentCase) -> Result<Shown, ChartError> {
         let scene = scene::load(&case.scene)?;
         let stage = Stage::new(&mut self.offscreen.renderer, &scene, &self.config);
         let moment = Moment::new(&scene, &self.config, case.at, case.seed);

@@ -1,14 +1,14 @@
 //! Whether anything pops: frames one after the other, with a governor that moves over the whole ladder, and each with the rung of the frame
 //! before it.
 
+use lensrunner::render::quality::costs::QualityCosts;
 use lensrunner::render::quality::governor::Governor;
-use lensrunner::render::quality::knobs::turned;
 use lensrunner::render::quality::ladder::ladder;
-use lensrunner::render::quality::prices::Prices;
+use lensrunner::render::quality::options::turned;
 use lensrunner::scene;
 
 use super::levels::SCENES;
-use super::moments::{Case, Taken, begin, class_of};
+use super::moments::{MomentCase, Taken, begin, class_of};
 use super::{DialRequest, Keep};
 use crate::chart::{ChartError, Sheet};
 
@@ -36,11 +36,11 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
     let (mut bench, mut sheet, _) = begin(request, &COLUMNS)?;
     for scene in SCENES {
         eprintln!("{scene}");
-        let rungs = ladder(Prices::shipped(), class_of(&scene::load(scene)?));
+        let rungs = ladder(QualityCosts::shipped(), class_of(&scene::load(scene)?));
         let mut governor = Governor::default();
         let mut last: Option<Taken> = None;
         for frame in 0..request.moments {
-            let case = Case { scene: scene.to_owned(), at: frame as f64 * STEP, seed: request.seed(), turn: [0.0; 2] };
+            let case = MomentCase { scene: scene.to_owned(), at: frame as f64 * STEP, seed: request.seed(), turn: [0.0; 2] };
             let mut shown = bench.show(&case)?;
             let asked = shown.finest;
             let before = governor.rung();

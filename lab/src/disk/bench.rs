@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use lensrunner::render::disk::Disk;
+use lensrunner::render::disk::DrawnDisk;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::PictureError;
 use lensrunner::render::gpu::targets::target;
@@ -12,7 +12,7 @@ use lensrunner::render::stage::settings;
 use lensrunner::render::{Gpu, Renderer};
 use lensrunner::scene::GameConfig;
 
-use super::request::{Contestant, Shown, View};
+use super::request::{DiskContestant, MeasuredView, Shown};
 use crate::chart::ChartError;
 use crate::offscreen::processor_time;
 
@@ -39,7 +39,7 @@ struct Held {
 
 impl Bench {
     /// For frames of `size` by these contestants. Renderers are made when they are first drawn with.
-    pub fn new(gpu: Gpu, contestants: &[Contestant], size: [u32; 2]) -> Bench {
+    pub fn new(gpu: Gpu, contestants: &[DiskContestant], size: [u32; 2]) -> Bench {
         let configs = contestants.iter().map(|contestant| contestant.config.clone()).collect();
         let (_, output) = target(&gpu.device, "bench", size, FORMAT);
         Bench { gpu, size, configs, surroundings: None, renderers: Vec::new(), output }
@@ -51,7 +51,7 @@ impl Bench {
     }
 
     /// Draws a frame of contestant `number` (None: no disk at all) for a view; with a size it brings linear light back, drawn at that size.
-    pub fn frame(&mut self, number: Option<usize>, view: &View, picture: Option<[u32; 2]>) -> Result<Shown, ChartError> {
+    pub fn frame(&mut self, number: Option<usize>, view: &MeasuredView, picture: Option<[u32; 2]>) -> Result<Shown, ChartError> {
         // Without a disk any of them will do; the last is the cheapest to bring its disk back.
         let config = &self.configs[number.unwrap_or(self.configs.len() - 1)];
         let representation = &config.disk.representation;
@@ -64,7 +64,7 @@ impl Bench {
         let Some(Held { renderer, taken_up, .. }) = held else { return Err(PictureError::Nothing.into()) };
         if *taken_up != number || number.is_none() {
             *taken_up = number;
-            renderer.set_disk(number.map(|_| Disk::new(config.disk.clone(), config)));
+            renderer.set_disk(number.map(|_| DrawnDisk::new(config.disk.clone(), config)));
         }
         let mut settings = settings(config);
         settings.stars &= view.sky;
@@ -94,7 +94,7 @@ impl Bench {
     }
 
     /// A frame: the mean of two, after two that make targets and whose timestamps are another's.
-    pub fn timed(&mut self, number: Option<usize>, view: &View) -> Result<Shown, ChartError> {
+    pub fn timed(&mut self, number: Option<usize>, view: &MeasuredView) -> Result<Shown, ChartError> {
         let mut frame = || self.frame(number, view, None);
         frame()?;
         frame()?;

@@ -4,7 +4,7 @@
 //! the same for every row (`chase.rs`); and the same, asked for, frame by frame (`flight.rs`).
 
 use super::bench::Bench;
-use super::request::{Contestant, DiskRequest, REFERENCE, TIME, View, contestants, eye, own, passes};
+use super::request::{DiskContestant, DiskRequest, MeasuredView, REFERENCE, TIME, contestants, eye, own, passes};
 use lensrunner::spacetime::Observer;
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ use lensrunner::scene::{self, disk::Gas};
 
 use super::chase::{chase, summary};
 use super::draw::figure;
-use super::error::{PictureError, compare, peak};
+use super::error::{DiskPictureError, compare, peak};
 use super::exact::picture;
 use super::flight::{self, flight};
 use super::places::errors_by_place;
@@ -53,17 +53,17 @@ fn portrait() -> Observer {
     eye(position, -position)
 }
 
-fn alone(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -> Result<Sheet, ChartError> {
+fn alone(request: &DiskRequest, contestants: &[DiskContestant], bench: &mut Bench) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::measured(
         &["contestant", "family", "disk_ms", "passes_ms", "wall_ms", "against_arcs_4200", "psnr_db", "flip", "mean_difference"],
         bench.adapter(),
     );
-    let view = View { eye: portrait(), time: TIME, sky: false, counted: false };
+    let view = MeasuredView { eye: portrait(), time: TIME, sky: false, counted: false };
     let named = contestants.iter().position(|contestant| contestant.name == REFERENCE);
     let reference = named.ok_or_else(|| ChartError::Failed(format!("no contestant is called {REFERENCE:?}")))?;
     let base = &contestants[0].config;
     let truth = picture(&Gas::new(&base.disk, base.hole.mass_solar), &view.eye, request.error_size, TIME, 3, 6);
-    let mut errors: Vec<PictureError> = Vec::new();
+    let mut errors: Vec<DiskPictureError> = Vec::new();
     for number in 0..contestants.len() {
         let shown = bench.frame(Some(number), &view, Some(request.error_size))?;
         errors.push(compare(&shown.picture, &truth, request.error_size, peak(&truth)));
@@ -83,7 +83,7 @@ fn alone(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -
         // Round by round, for what else runs on the machine changes from round to round.
         let ratios: Vec<f64> = own_times.iter().zip(&against).map(|(own, reference)| own / reference).collect();
         let medians = [own_times, pass_times, whole, &ratios].map(|times| format!("{:.3}", quantile(times.iter().copied(), 0.5))).join("|");
-        let (Contestant { name, family, .. }, PictureError { psnr, flip, relative }) = (contestant, error);
+        let (DiskContestant { name, family, .. }, DiskPictureError { psnr, flip, relative }) = (contestant, error);
         sheet.line(format_args!("{name}|{family}|{medians}|{psnr:.2}|{flip:.4}|{relative:.4}"));
     }
     Ok(sheet)

@@ -4,9 +4,9 @@ use crate::chart::{ChartError, Sheet, mean, quantile};
 use lensrunner::scene::disk::Gas;
 
 use super::bench::Bench;
-use super::error::{PictureError, compare, peak};
+use super::error::{DiskPictureError, compare, peak};
 use super::exact::picture;
-use super::request::{Contestant, DISK_PASSES, DiskRequest, View, own};
+use super::request::{DISK_PASSES, DiskContestant, DiskRequest, MeasuredView, own};
 use super::script::script;
 
 /// The exact picture has this many samples squared in a pixel.
@@ -18,7 +18,7 @@ const LEAST_PEAK: f32 = 0.01;
 
 /// A row for each place and contestant. The frames that are timed have stars and the Milky Way behind the disk, as in the game; the
 /// pictures that are compared show the disk alone. Times are medians of the rounds, in which all take turns.
-pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -> Result<Sheet, ChartError> {
+pub(super) fn chase(request: &DiskRequest, contestants: &[DiskContestant], bench: &mut Bench) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::measured(
         &[
             "contestant", "family", "step", "situation", "frame_ms", "wall_ms", "disk_ms", "arcs_ms", "mesh_ms", "draw_ms", "psnr_db",
@@ -29,13 +29,13 @@ pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], bench: &m
     let base = &contestants[0].config;
     let gas = Gas::new(&base.disk, base.hole.mass_solar);
     let steps = request.steps.max(2);
-    let runners: Vec<(usize, &Contestant)> = contestants.iter().enumerate().filter(|(_, contestant)| contestant.family != 3).collect();
+    let runners: Vec<(usize, &DiskContestant)> = contestants.iter().enumerate().filter(|(_, contestant)| contestant.family != 3).collect();
     let places: Vec<_> = (0..steps).map(|step| script((step as f64 + 0.5) / steps as f64, base.disk.inner)).collect();
     let truths: Vec<_> = places.iter().map(|(eye, time, _)| picture(&gas, eye, request.error_size, *time, 3, SAMPLES)).collect();
     let brightest = truths.iter().map(|truth| peak(truth)).fold(0.0, f32::max);
     for (step, (&(eye, time, situation), truth)) in places.iter().zip(&truths).enumerate() {
         let exposed = peak(truth).max(LEAST_PEAK * brightest);
-        let [alone, in_game] = [false, true].map(|sky| View { eye, time, sky, counted: false });
+        let [alone, in_game] = [false, true].map(|sky| MeasuredView { eye, time, sky, counted: false });
         let mut times = vec![[const { Vec::new() }; 6]; runners.len()];
         for _ in 0..request.rounds {
             let without = bench.timed(None, &in_game)?;
@@ -50,7 +50,7 @@ pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], bench: &m
             let shown = bench.frame(Some(number), &alone, Some(request.error_size))?;
             let error = compare(&shown.picture, truth, request.error_size, exposed);
             let times: String = times.iter().map(|times| format!("|{:.3}", quantile(times.iter().copied(), 0.5))).collect();
-            let (Contestant { name, family, .. }, PictureError { psnr, flip, .. }) = (contestant, error);
+            let (DiskContestant { name, family, .. }, DiskPictureError { psnr, flip, .. }) = (contestant, error);
             sheet.line(format_args!("{name}|{family}|{step}|{situation}{times}|{psnr:.2}|{flip:.4}"));
         }
     }

@@ -4,7 +4,7 @@ use crate::flip::mean_flip;
 
 /// The error of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PictureError {
+pub struct DiskPictureError {
     /// Peak signal to noise in dB, at most [`BEST_PSNR`]; brighter light than the peak counts as that.
     pub psnr: f64,
     /// Mean of |difference| over mean of the truth.
@@ -24,7 +24,7 @@ pub fn peak(picture: &[[f32; 3]]) -> f32 {
 }
 
 /// Compares linear pictures of `size` pixels, both exposed for `peak`.
-pub fn compare(got: &[[f32; 3]], truth: &[[f32; 3]], size: [u32; 2], peak: f32) -> PictureError {
+pub fn compare(got: &[[f32; 3]], truth: &[[f32; 3]], size: [u32; 2], peak: f32) -> DiskPictureError {
     let (mut square, mut off, mut whole) = (0.0f64, 0.0f64, 0.0f64);
     for (a, b) in got.iter().flatten().zip(truth.iter().flatten()) {
         let difference = f64::from(a.min(peak)) - f64::from(b.min(peak));
@@ -34,7 +34,7 @@ pub fn compare(got: &[[f32; 3]], truth: &[[f32; 3]], size: [u32; 2], peak: f32) 
     }
     let mean = square / (3 * truth.len().max(1)) as f64;
     let exposed = |picture: &[[f32; 3]]| -> Vec<[f32; 3]> { picture.iter().map(|p| p.map(|light| light / peak)).collect() };
-    PictureError {
+    DiskPictureError {
         flip: mean_flip(&exposed(truth), &exposed(got), size),
         psnr: (10.0 * (f64::from(peak).powi(2) / mean.max(1e-300)).log10()).min(BEST_PSNR),
         relative: off / whole.max(1e-30),

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use lensrunner::scene::blackbody;
 use lensrunner::scene::disk::{DISK_UNIT, Gas};
 use lensrunner::spacetime::frames;
-use lensrunner::spacetime::light::{self, Fate, Ray};
+use lensrunner::spacetime::light::{self, Ray, SweepEnd};
 
 /// One crossing of the disk's plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,7 +92,7 @@ pub fn crossings(gas: &Gas, eye: &Observer, size: [u32; 2], at: [f64; 2], orders
     (0..orders)
         .filter_map(|order| {
             let swept = first + PI * f64::from(order);
-            let Fate::At { u: u_point, slope } = light::follow(u, start.slope, swept) else { return None };
+            let SweepEnd::At { u: u_point, slope } = light::follow(u, start.slope, swept) else { return None };
             let radius = 1.0 / u_point;
             if !(radius > inner && radius < outer) {
                 return None;

@@ -4,7 +4,7 @@ use crate::chart::{ChartError, Sheet, mean};
 use lensrunner::scene::GameConfig;
 
 use super::bench::Bench;
-use super::request::{DISK_PASSES, DiskRequest, REFERENCE, View, contestants};
+use super::request::{DISK_PASSES, DiskRequest, MeasuredView, REFERENCE, contestants};
 use super::script::script;
 
 /// Times each place is drawn: timestamps are read one frame later, and of two frames in a row only those of one.
@@ -21,7 +21,7 @@ pub(super) fn flight(request: &DiskRequest, config: &GameConfig, bench: &mut Ben
         let share = frame as f64 / request.flight.saturating_sub(1).max(1) as f64;
         let (eye, time, situation) = script(share, config.disk.inner);
         let mut drawn = |counted| {
-            let view = View { eye, time, sky: true, counted };
+            let view = MeasuredView { eye, time, sky: true, counted };
             for _ in 1..DRAWN {
                 bench.frame(number, &view, None)?;
             }

@@ -11,5 +11,5 @@ pub mod places;
 pub mod request;
 pub mod script;
 
-pub use error::{PictureError, compare, peak};
+pub use error::{DiskPictureError, compare, peak};
 pub use exact::{part, picture};

@@ -9,9 +9,9 @@ use crate::chart::{ChartError, Sheet};
 use lensrunner::scene::disk::Gas;
 
 use super::bench::Bench;
-use super::error::{PictureError, compare, peak};
+use super::error::{DiskPictureError, compare, peak};
 use super::exact::picture;
-use super::request::{Contestant, DiskRequest, TIME, View, eye};
+use super::request::{DiskContestant, DiskRequest, MeasuredView, TIME, eye};
 
 /// Degrees from the axis that the disk is seen at: from above to nearly edge on.
 const INCLINATIONS: [f64; 8] = [0.0, 30.0, 60.0, 80.0, 85.0, 87.0, 88.0, 89.0];
@@ -38,16 +38,17 @@ fn seats() -> Vec<(String, Observer)> {
 }
 
 /// PSNR and ꟻLIP of polygons and arcs from each of these places.
-pub fn errors_by_place(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -> Result<Sheet, ChartError> {
+pub fn errors_by_place(request: &DiskRequest, contestants: &[DiskContestant], bench: &mut Bench) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::measured(&["contestant", "family", "place", "psnr_db", "flip", "mean_difference"], bench.adapter());
     let base = &contestants[0].config;
     let gas = Gas::new(&base.disk, base.hole.mass_solar);
     for (place, eye) in seats() {
         let truth = picture(&gas, &eye, request.error_size, TIME, 3, SAMPLES);
         for (number, contestant) in contestants.iter().enumerate().filter(|(_, contestant)| contestant.family < 2) {
-            let shown = bench.frame(Some(number), &View { eye, time: TIME, sky: false, counted: false }, Some(request.error_size))?;
+            let shown =
+                bench.frame(Some(number), &MeasuredView { eye, time: TIME, sky: false, counted: false }, Some(request.error_size))?;
             let error = compare(&shown.picture, &truth, request.error_size, peak(&truth));
-            let (Contestant { name, family, .. }, PictureError { psnr, flip, relative }) = (contestant, error);
+            let (DiskContestant { name, family, .. }, DiskPictureError { psnr, flip, relative }) = (contestant, error);
             sheet.line(format_args!("{name}|{family}|{place}|{psnr:.2}|{flip:.4}|{relative:.4}"));
         }
     }

@@ -34,7 +34,7 @@ pub struct DiskRequest {
 
 /// One way to draw the disk.
 #[derive(Clone, Debug)]
-pub struct Contestant {
+pub struct DiskContestant {
     /// What it is called.
     pub name: String,
     /// 0 arcs, 1 polygons, 2 sprites, 3 arcs at another error budget.
@@ -69,7 +69,7 @@ impl Shown {
 
 /// What is looked at.
 #[derive(Clone, Copy, Debug)]
-pub struct View {
+pub struct MeasuredView {
     /// From where.
     pub eye: Observer,
     /// T, in r_s/c.
@@ -90,11 +90,11 @@ pub(super) const REFERENCE: &str = "arcs 4200";
 pub(super) const TIME: f64 = 100.0;
 
 /// All ways, in the order of the tables of Yamashita 2025, then arcs at other budgets.
-pub fn contestants(config: &GameConfig) -> Vec<Contestant> {
+pub fn contestants(config: &GameConfig) -> Vec<DiskContestant> {
     let with = |name: String, family, change: &dyn Fn(&mut GameConfig)| {
         let mut config = config.clone();
         change(&mut config);
-        Contestant { name, family, config }
+        DiskContestant { name, family, config }
     };
     let mut all = vec![
         with("polygons 960".into(), 1, &|c| c.disk.representation = "polygons".into()),

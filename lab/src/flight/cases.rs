@@ -12,7 +12,7 @@ pub const MOMENTS: usize = 16;
 
 /// One flight.
 #[derive(Clone, Debug)]
-pub struct Case {
+pub struct FlightCase {
     /// What it is called.
     pub name: &'static str,
     /// The state at T = 0, in the plane z = 0.
@@ -23,7 +23,7 @@ pub struct Case {
     pub drive: Drive,
 }
 
-impl Case {
+impl FlightCase {
     /// T between two moments.
     pub fn segment(&self) -> f64 {
         self.span / MOMENTS as f64
@@ -55,7 +55,7 @@ const WHIRL_PERIOD: f64 = 513.010_399_630_2 / 2.0;
 pub const DROP: f64 = 5.0;
 
 /// All of them.
-pub fn all() -> Result<Vec<Case>, OrbitError> {
+pub fn all() -> Result<Vec<FlightCase>, OrbitError> {
     let orbit = |semi_latus_rectum, eccentricity| {
         let apoapsis = std::f64::consts::PI;
         Elements { semi_latus_rectum, eccentricity, inclination: 0.0, node: 0.0, phase: 0.0, anomaly: apoapsis }.state()
@@ -64,10 +64,10 @@ pub fn all() -> Result<Vec<Case>, OrbitError> {
     let coasting = Drive::default();
     let drop = DVec3::new(DROP, 0.0, 0.0);
     Ok(vec![
-        Case { name: "circle", start: Elements::circle(3.0, 0.0).state()?, span: circle(3.0, 20.0), drive: coasting },
-        Case { name: "eccentric", start: orbit(5.0, 0.5)?, span: 20.0 * ECCENTRIC_PERIOD, drive: coasting },
-        Case { name: "zoom-whirl", start: orbit(3.505, 0.5)?, span: 3.0 * WHIRL_PERIOD, drive: coasting },
-        Case {
+        FlightCase { name: "circle", start: Elements::circle(3.0, 0.0).state()?, span: circle(3.0, 20.0), drive: coasting },
+        FlightCase { name: "eccentric", start: orbit(5.0, 0.5)?, span: 20.0 * ECCENTRIC_PERIOD, drive: coasting },
+        FlightCase { name: "zoom-whirl", start: orbit(3.505, 0.5)?, span: 3.0 * WHIRL_PERIOD, drive: coasting },
+        FlightCase {
             name: "fall",
             start: ShipState::new(drop, static_momentum(drop).unwrap_or_default()),
             // Until r = 0.1.
@@ -75,7 +75,12 @@ pub fn all() -> Result<Vec<Case>, OrbitError> {
             drive: coasting,
         },
         // Stays between 2.9 and 5.5 r_s.
-        Case { name: "powered", start: Elements::circle(5.0, 0.0).state()?, span: 800.0, drive: Drive { thrust: 0.003, turning: -0.1 } },
+        FlightCase {
+            name: "powered",
+            start: Elements::circle(5.0, 0.0).state()?,
+            span: 800.0,
+            drive: Drive { thrust: 0.003, turning: -0.1 },
+        },
     ])
 }
 

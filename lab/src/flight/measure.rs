@@ -3,7 +3,7 @@
 use lensrunner::spacetime::matter::{ShipState, angular_momentum, energy};
 
 use super::FlightRequest;
-use super::cases::{self, Case};
+use super::cases::{self, FlightCase};
 use super::methods::{Effort, Flown, Method, fly};
 use super::truth::{self, Polar};
 use crate::chart::{ChartError, Sheet, interleaved_by, thread_time};
@@ -54,7 +54,7 @@ impl Errors {
 }
 
 /// Efforts of a method: steps halved again and again, or tolerances.
-fn efforts(method: Method, case: &Case) -> Vec<Effort> {
+fn efforts(method: Method, case: &FlightCase) -> Vec<Effort> {
     if method.is_adaptive() {
         return (2..=14).map(|digits| Effort::Tolerance(10f64.powi(-digits))).collect();
     }
@@ -66,7 +66,7 @@ fn efforts(method: Method, case: &Case) -> Vec<Effort> {
 }
 
 /// The game's own step, as near as the moments allow.
-fn own(case: &Case) -> Effort {
+fn own(case: &FlightCase) -> Effort {
     Effort::Steps((case.segment() / GAME_STEP).ceil() as u32)
 }
 

@@ -6,7 +6,7 @@ use glam::DVec3;
 use lensrunner::spacetime::matter::{ShipRate, ShipState, gamma, rate, step_until, tidal_pull};
 use lensrunner::spacetime::tableau;
 
-use super::cases::{Case, MOMENTS};
+use super::cases::{FlightCase, MOMENTS};
 
 /// A method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,7 +64,7 @@ pub struct Flown {
 const MOST_STEPS: u64 = 20_000_000;
 
 /// Flies a case.
-pub fn fly(method: Method, case: &Case, effort: Effort) -> Flown {
+pub fn fly(method: Method, case: &FlightCase, effort: Effort) -> Flown {
     let mut pilot = Pilot {
         thrust: DVec3::X * case.drive.thrust,
         rates: DVec3::Z * case.drive.turning,

@@ -15,9 +15,9 @@ use crate::compare::flight::hands::PACES;
 use crate::plot::{Axis, Figure, Guide, Panel, Point, Scatter};
 use lensrunner::argument::whole;
 use lensrunner::render::gpu::types::Instance;
-use lensrunner::render::instances::swing::{Seen, Swing, swing_at};
-use lensrunner::scene::crew::Crew;
+use lensrunner::render::instances::local_motion::{ImageExtent, LocalMotion, local_motion_at};
 use lensrunner::scene::mission::Difficulty;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::{History, Moment};
 use lensrunner::spacetime::matter::gamma;
@@ -71,7 +71,7 @@ pub fn measure(moments: usize) -> Result<Sheet, ChartError> {
         let mut config = GameConfig::default();
         config.clock.pace = pace;
         let config = scene.config(&config, Difficulty::Easy);
-        let mut moment = Moment::with_crew(&scene, &config, seed as u64, Crew::Hands);
+        let mut moment = Moment::with_pilot(&scene, &config, seed as u64, PilotKind::Hands);
         let last = TIMES.0 + TIMES.1 * moments as f64 + 1.0;
         moment.advance((last / config.clock.step) as u64);
         let history = moment.histories()[0];
@@ -84,14 +84,14 @@ pub fn measure(moments: usize) -> Result<Sheet, ChartError> {
             smooth.seconds.push(began.elapsed().as_secs_f64());
             smooth.errors.extend(displaced(history, emission, |body, s| way.at(body, s)));
             for ((intervals, measured), width) in nodes.iter_mut().zip(WIDTHS) {
-                let seen = Seen { span: 1.5 * REACH, width, pixel: pixel() };
+                let seen = ImageExtent { span: 1.5 * REACH, width, pixel: pixel() };
                 let began = Instant::now();
-                let swing = black_box(Swing::new(history, emission, REACH, &seen));
+                let local_motion = black_box(LocalMotion::new(history, emission, REACH, &seen));
                 measured.seconds.push(began.elapsed().as_secs_f64());
-                *intervals += (swing.nodes.len() - 1) as f64 / moments as f64;
-                let instance = instance_of(history, emission, &swing);
+                *intervals += (local_motion.nodes.len() - 1) as f64 / moments as f64;
+                let instance = instance_of(history, emission, &local_motion);
                 measured.errors.extend(displaced(history, emission, |body, s| {
-                    swing_at(&instance, &swing.nodes, body.as_vec3(), s as f32).0.as_dvec3()
+                    local_motion_at(&instance, &local_motion.nodes, body.as_vec3(), s as f32).0.as_dvec3()
                 }));
             }
         }
@@ -129,22 +129,22 @@ fn displaced(history: &History, emission: f64, way: impl Fn(DVec3, f64) -> DVec3
 }
 
 /// What of an instance tells the motion, for a body of a unit of 1 r_s.
-fn instance_of(history: &History, emission: f64, swing: &Swing) -> Instance {
+fn instance_of(history: &History, emission: f64, local_motion: &LocalMotion) -> Instance {
     let now = history.at(emission);
     let numbers = |v: DVec3| v.as_vec3().to_array();
-    let [first_node, step] = swing.times.map(|time| time as f32);
+    let [first_node, step] = local_motion.times.map(|time| time as f32);
     Instance {
         velocity: numbers(now.velocity),
         scale: 1.0,
-        acceleration: numbers(swing.acceleration),
-        jerk: numbers(swing.jerk),
-        snap: numbers(swing.snap),
+        acceleration: numbers(local_motion.acceleration),
+        jerk: numbers(local_motion.jerk),
+        snap: numbers(local_motion.snap),
         contraction: numbers(now.momentum),
-        force: numbers(swing.force),
-        strays: f32::from(u8::from(swing.strays)),
+        force: numbers(local_motion.force),
+        strays: f32::from(u8::from(local_motion.strays)),
         first_node,
         nodes_per_time: step.recip(),
-        node_intervals: (swing.nodes.len() - 1) as f32,
+        node_intervals: (local_motion.nodes.len() - 1) as f32,
         ..Instance::default()
     }
 }

@@ -93,7 +93,7 @@ pub fn made(root: &Path, folder: &Path, product: &Product, record: &Record) -> O
         return None;
     }
     let sheets = files.iter().filter(|file| file.extension().is_some_and(|extension| extension == "csv"));
-    let told = sheets.filter_map(|file| Provenance::told(&Sheet::load(file).ok()?.notes)).next();
+    let told = sheets.filter_map(|file| Provenance::from_notes(&Sheet::load(file).ok()?.notes)).next();
     // The mark of uncommitted files does not count: a record's is of the product's sources alone, a sheet's of all files.
     let clean = |on: &Provenance| on.commit.trim_end_matches('+').to_owned();
     match (record.of(product.name.as_str()), told) {

@@ -32,10 +32,10 @@ fn answers(race: &mut Race, method: Method, rows: &[Row]) -> [Vec<Option<[f64; 2
     for rows in by_camera(rows) {
         // One dispatch a camera: its slice is the same for all orders.
         let asked: Vec<_> =
-            Order::ALL.into_iter().flat_map(|order| rows.iter().map(move |row| packed(row.query.into(), order, row.branch))).collect();
+            Order::ALL.into_iter().flat_map(|order| rows.iter().map(move |row| packed(row.input.into(), order, row.branch))).collect();
         let seen =
             |[[cos, sin, delay, there], _]: [[f32; 4]; 2]| (there == 1.0).then(|| [f64::from(sin).atan2(f64::from(cos)), f64::from(delay)]);
-        let found = told(race.look_up(method, rows[0].query.camera, &asked))
+        let found = told(race.look_up(method, rows[0].input.camera, &asked))
             .map_or_else(|| vec![None; asked.len()], |rays| rays.into_iter().map(seen).collect());
         for (all, found) in all.iter_mut().zip(found.chunks(rows.len())) {
             all.extend_from_slice(found);
@@ -59,7 +59,7 @@ pub fn measure(
     frames: &[TimedFrame],
 ) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::measured(COLUMNS, &race.adapter());
-    sheet.notes.push(("points".into(), format!("{}, {}", super::told(request, rows), super::draw::SAME)));
+    sheet.notes.push(("points".into(), format!("{}, {}", super::describe_rows(request, rows), super::draw::SAME)));
     let wanted = |method: &Method| request.methods.is_empty() || request.methods.iter().any(|wanted| wanted == method.name);
     let methods: Vec<_> = METHODS.into_iter().filter(wanted).collect();
     eprintln!("timing {} methods on {}", methods.len(), race.adapter());

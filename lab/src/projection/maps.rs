@@ -9,7 +9,7 @@ use super::{ProjectionRequest, chosen};
 use crate::chart::{ChartError, Provenance, Sheet};
 use crate::plot::{Axis, Figure, Guide, Map, Panel};
 use lensrunner::lensing::adversarial::POINTS;
-use lensrunner::lensing::methods::{Exact, Projector, Query};
+use lensrunner::lensing::methods::{Exact, ProjectionInput, Projector};
 use lensrunner::spacetime::light::{Branch, Order};
 
 /// Camera radii with points outside the horizon; the first of them also with points inside.
@@ -46,18 +46,18 @@ impl Plane {
         if self.inside { PI - (1.0 - 2.0 * self.camera).acos() } else { PI }
     }
 
-    fn query(self, column: usize, row: usize) -> Query {
+    fn input(self, column: usize, row: usize) -> ProjectionInput {
         let share = |k: usize, n: usize| (k as f64 + 0.5) / n as f64;
         let ([low, high], x) = (self.radii(), share(column, SIZE[0]));
         let r = if self.inside { low + x * (high - low) } else { low * (high / low).powf(x) };
-        Query { r, phi: self.farthest() * share(row, SIZE[1]), camera: self.camera }
+        ProjectionInput { r, phi: self.farthest() * share(row, SIZE[1]), camera: self.camera }
     }
 
     /// The error of order 1, degrees; NaN where the method has no answer or invents one, −∞ where there is no light.
-    fn error(self, method: &dyn Projector, query: Query) -> f64 {
+    fn error(self, method: &dyn Projector, input: ProjectionInput) -> f64 {
         let branches: &[Branch] = if self.inside { &[Branch::Plus, Branch::Minus] } else { &[Branch::Plus] };
         let one = |branch: &Branch| {
-            let psi = |method: &dyn Projector| Some(method.project(query, Order::ALL[0], *branch)?.psi_rain);
+            let psi = |method: &dyn Projector| Some(method.project(input, Order::ALL[0], *branch)?.psi_rain);
             match (psi(method), psi(&Exact)) {
                 (Some(psi), Some(truth)) => (psi - truth).abs().to_degrees(),
                 (None, None) => f64::NEG_INFINITY,
@@ -87,12 +87,12 @@ pub fn measure(request: &ProjectionRequest) -> Result<Sheet, ChartError> {
         for plane in Plane::all() {
             let errors: Vec<f64> = (0..SIZE[0] * SIZE[1])
                 .into_par_iter()
-                .map(|i| plane.error(method.as_ref(), plane.query(i % SIZE[0], i / SIZE[0])))
+                .map(|i| plane.error(method.as_ref(), plane.input(i % SIZE[0], i / SIZE[0])))
                 .collect();
             for (row, errors) in errors.chunks(SIZE[0]).enumerate() {
                 let place = if plane.inside { "inside" } else { "outside" };
                 let mut cells = vec![entry.name.to_owned(), plane.camera.to_string(), place.to_owned()];
-                cells.push(format!("{:.4}", plane.query(0, row).phi));
+                cells.push(format!("{:.4}", plane.input(0, row).phi));
                 cells.extend(errors.iter().map(|e| if e.is_finite() { format!("{e:.1e}") } else { e.to_string() }));
                 sheet.push(cells);
             }

@@ -82,7 +82,7 @@ fn chosen(request: &ProjectionRequest) -> Result<Methods, ChartError> {
 }
 
 /// What the rows are, for the notes of a sheet.
-fn told(request: &ProjectionRequest, rows: &[Row]) -> String {
+fn describe_rows(request: &ProjectionRequest, rows: &[Row]) -> String {
     format!(
         "{} for each order, from {} cameras, seed {}",
         rows.len(),
@@ -109,7 +109,7 @@ fn measure(request: &ProjectionRequest) -> Result<Sheet, ChartError> {
     let frames = time::frames(request.seed);
     let times = time::measure(&methods, &frames);
     let rows = rows(request.points, request.seed);
-    sheet.notes.push(("points".into(), told(request, &rows)));
+    sheet.notes.push(("points".into(), describe_rows(request, &rows)));
     let truths = truths(&rows);
     for ((entry, method), timed) in methods.iter().zip(times) {
         eprintln!("scoring {}", entry.name);

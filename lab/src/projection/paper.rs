@@ -13,7 +13,7 @@ use super::ProjectionRequest;
 use super::methods;
 use crate::chart::Sheet;
 use lensrunner::lensing::Scheme;
-use lensrunner::lensing::methods::{Exact, Projector, Query};
+use lensrunner::lensing::methods::{Exact, ProjectionInput, Projector};
 use lensrunner::lensing::paper::{camera_mesh, slice_meshes};
 use lensrunner::lensing::paper_format::RANGES;
 use lensrunner::spacetime::light::{Branch, Order};
@@ -90,16 +90,16 @@ fn errors(
         .into_par_iter()
         .filter_map(|i| {
             let mut rng = SmallRng::seed_from_u64(request.seed ^ (i as u64) << 20 ^ (sampling as u64) << 8 ^ u64::from(inside));
-            let query = draw(&mut rng, scheme, inside, sampling);
-            let truth = Exact.project(query, order, Branch::Plus)?.psi_static?;
-            let seen = method.project(query, order, Branch::Plus)?.psi_static?;
-            Some(((seen - truth).abs().to_degrees(), [query.r, query.phi, query.camera]))
+            let input = draw(&mut rng, scheme, inside, sampling);
+            let truth = Exact.project(input, order, Branch::Plus)?.psi_static?;
+            let seen = method.project(input, order, Branch::Plus)?.psi_static?;
+            Some(((seen - truth).abs().to_degrees(), [input.r, input.phi, input.camera]))
         })
         .collect();
     super::score::Spread::of(drawn)
 }
 
-fn draw(rng: &mut SmallRng, scheme: Scheme, inside: bool, sampling: usize) -> Query {
+fn draw(rng: &mut SmallRng, scheme: Scheme, inside: bool, sampling: usize) -> ProjectionInput {
     loop {
         let [x, y, z] = [rng.random::<f64>(), rng.random::<f64>(), rng.random::<f64>()];
         let uniform = |[low, high]: [f64; 2], x: f64| low + (high - low) * x;
@@ -124,7 +124,7 @@ fn draw(rng: &mut SmallRng, scheme: Scheme, inside: bool, sampling: usize) -> Qu
         // The f32 offset decides which half is asked: a point on the border may fall to either.
         let clear = (r - camera).abs() > 1e-6 * camera;
         if distance >= 0.01 * camera.sqrt() && phi > 1e-9 && clear {
-            return Query { r, phi, camera };
+            return ProjectionInput { r, phi, camera };
         }
     }
 }

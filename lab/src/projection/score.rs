@@ -13,7 +13,7 @@ pub type Truth = Option<[f64; 2]>;
 
 /// The truth of every row in one order.
 pub fn truth(rows: &[Row], order: Order) -> Vec<Truth> {
-    rows.par_iter().map(|row| Exact.project(row.query, order, row.branch).map(|sight| [sight.psi_rain, sight.delay])).collect()
+    rows.par_iter().map(|row| Exact.project(row.input, order, row.branch).map(|sight| [sight.psi_rain, sight.delay])).collect()
 }
 
 /// Maximum, 99.9th percentile and root mean square of some errors.
@@ -64,7 +64,7 @@ pub fn score(method: &dyn Projector, rows: &[Row], truth: &[Truth], order: Order
     let answers: Vec<Option<[f64; 2]>> = rows
         .par_iter()
         .map(|row| {
-            let sight = method.project(row.query, order, row.branch)?;
+            let sight = method.project(row.input, order, row.branch)?;
             (sight.psi_rain.is_finite() && sight.delay.is_finite()).then_some([sight.psi_rain, sight.delay])
         })
         .collect();
@@ -77,7 +77,7 @@ pub(super) fn tally(rows: &[Row], answers: &[Option<[f64; 2]>], truth: &[Truth])
     let (mut delay, mut share) = (Vec::new(), Vec::new());
     let (mut missing, mut invented) = (0, 0);
     for ((row, answer), truth) in rows.iter().zip(answers).zip(truth) {
-        let at = [row.query.r, row.query.phi, row.query.camera];
+        let at = [row.input.r, row.input.phi, row.input.camera];
         match (answer, truth) {
             (Some([psi, time]), Some([true_psi, true_time])) => {
                 angle.push(((psi - true_psi).abs().to_degrees(), at));

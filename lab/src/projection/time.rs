@@ -8,7 +8,7 @@ use rand::rngs::SmallRng;
 use super::methods::{Entry, Frame, Method};
 use crate::chart::interleaved;
 use lensrunner::lensing::adversarial::row;
-use lensrunner::lensing::methods::{Query, Vertex};
+use lensrunner::lensing::methods::{ProjectionInput, Vertex};
 use lensrunner::spacetime::light::Order;
 
 /// Camera radii that points are timed from.
@@ -41,14 +41,14 @@ pub struct Timed {
 pub fn frames(seed: u64) -> Vec<TimedFrame> {
     let mut rng = SmallRng::seed_from_u64(seed ^ 0x5eed);
     let drawn: Vec<_> = (0..FRAMES * POINTS * 40).map(|_| row(&mut rng)).collect();
-    let cameras: Vec<f64> = drawn.iter().map(|row| row.query.camera).filter(|l| (1.02..5000.0).contains(l)).take(FRAMES).collect();
+    let cameras: Vec<f64> = drawn.iter().map(|row| row.input.camera).filter(|l| (1.02..5000.0).contains(l)).take(FRAMES).collect();
     // The points are drawn around other cameras: kept as multiples of those.
-    let points: Vec<(f64, f64)> = drawn.iter().map(|row| (row.query.r / row.query.camera, row.query.phi)).collect();
+    let points: Vec<(f64, f64)> = drawn.iter().map(|row| (row.input.r / row.input.camera, row.input.phi)).collect();
     let mut rest = points.into_iter();
     let frame = |camera: f64| {
         let within = |r: &f64| (1.006..9900.0).contains(r);
         let points = rest.by_ref().map(|(ratio, phi)| (ratio * camera, phi)).filter(|(r, _)| within(r)).take(POINTS);
-        let points = points.map(|(r, phi)| Query { r, phi, camera }.into()).collect();
+        let points = points.map(|(r, phi)| ProjectionInput { r, phi, camera }.into()).collect();
         TimedFrame { camera, points }
     };
     cameras.into_iter().map(frame).collect()

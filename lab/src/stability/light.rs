@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use lensrunner::judge;
-use lensrunner::lensing::methods::Query;
-use lensrunner::spacetime::light::{self, Branch, Fate, Order};
+use lensrunner::lensing::methods::ProjectionInput;
+use lensrunner::spacetime::light::{self, Branch, Order, SweepEnd};
 use rayon::prelude::*;
 
 use super::Finding;
@@ -27,7 +27,7 @@ const LARGE: &str = "paper1-128";
 /// A point seen by a camera.
 #[derive(Clone, Copy, Debug)]
 struct Ask {
-    query: Query,
+    input: ProjectionInput,
     order: Order,
     branch: Branch,
 }
@@ -40,7 +40,7 @@ struct Place {
 }
 
 fn ask(r: f64, phi: f64, camera: f64, order: Order) -> Ask {
-    Ask { query: Query { r, phi, camera }, order, branch: Branch::Plus }
+    Ask { input: ProjectionInput { r, phi, camera }, order, branch: Branch::Plus }
 }
 
 /// 10^-k.
@@ -61,7 +61,7 @@ fn critical() -> Vec<Ask> {
         let slope = (2.0 / 3.0 - u) * (u + 1.0 / 3.0).sqrt();
         for (k, side) in (1..=6).flat_map(|k| [(k, 1.0), (k, -1.0)]) {
             for (order, phi) in Order::ALL.into_iter().flat_map(|order| [0.3, 1.5, 2.9].map(|phi| (order, phi))) {
-                if let Fate::At { u: end, .. } = light::follow(u, slope * (1.0 + side * tenth(k)), order.swept(phi))
+                if let SweepEnd::At { u: end, .. } = light::follow(u, slope * (1.0 + side * tenth(k)), order.swept(phi))
                     && (LOWEST..1e4).contains(&(1.0 / end))
                 {
                     asks.push(ask(1.0 / end, phi, l, order));
@@ -143,26 +143,26 @@ fn places() -> Vec<Place> {
 }
 
 /// The error of a delay that may be, in r_s/c.
-fn allowance(query: Query, delay: f64) -> f64 {
-    if query.r < 1.05 { 0.02 } else { 0.002 + 3e-7 * delay }
+fn allowance(input: ProjectionInput, delay: f64) -> f64 {
+    if input.r < 1.05 { 0.02 } else { 0.002 + 3e-7 * delay }
 }
 
 /// ψ in the rain frame and the delay by the judge.
-fn truth(Ask { query, order, branch }: &Ask) -> Option<[f64; 2]> {
+fn truth(Ask { input, order, branch }: &Ask) -> Option<[f64; 2]> {
     let branch = match branch {
-        Branch::Plus => judge::Branch::Plus,
-        Branch::Minus => judge::Branch::Minus,
+        Branch::Plus => judge::EnergySign::Plus,
+        Branch::Minus => judge::EnergySign::Minus,
     };
-    let seen = judge::shoot(query.r, query.phi, query.camera, u32::from(order.number()), branch, TOLERANCE)?;
+    let seen = judge::shoot(input.r, input.phi, input.camera, u32::from(order.number()), branch, TOLERANCE)?;
     Some([seen.psi_rain, seen.delay])
 }
 
 /// The greatest error of a method; NaN if it does not answer where there is light. In degrees, or in what a delay may be off.
 fn worst(method: &dyn Method, place: &Place, truths: &[[f64; 2]], asks: &[Ask]) -> f64 {
     asks.iter().zip(truths).fold(0.0, |worst: f64, (asked, [psi, delay])| {
-        let Some(seen) = method.project(asked.query, asked.order, asked.branch) else { return f64::NAN };
+        let Some(seen) = method.project(asked.input, asked.order, asked.branch) else { return f64::NAN };
         let error = match place.delays {
-            true => (seen.delay - delay).abs() / allowance(asked.query, *delay),
+            true => (seen.delay - delay).abs() / allowance(asked.input, *delay),
             false => (seen.psi_rain - psi).abs().to_degrees(),
         };
         if worst.is_nan() || error.is_nan() { f64::NAN } else { worst.max(error) }

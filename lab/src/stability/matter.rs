@@ -5,7 +5,7 @@ use lensrunner::spacetime::matter::ShipState;
 use lensrunner::spacetime::orbit::{Elements, OrbitError};
 
 use super::Finding;
-use crate::flight::cases::{self, Case};
+use crate::flight::cases::{self, FlightCase};
 use crate::flight::measure::{Errors, GAME_STEP};
 use crate::flight::methods::{Effort, Method, fly};
 use crate::flight::truth::Drive;
@@ -19,7 +19,7 @@ const MILLION: f64 = 31_250.0;
 
 struct Place {
     name: &'static str,
-    case: Case,
+    case: FlightCase,
     /// Steps of the methods of equal steps, in r_s/c.
     step: f64,
 }
@@ -27,7 +27,7 @@ struct Place {
 fn places() -> Result<Vec<Place>, OrbitError> {
     let coasting = Drive::default();
     let own = |name, case| Place { name, case, step: GAME_STEP };
-    let case = |start, span, drive| Case { name: "", start, span, drive };
+    let case = |start, span, drive| FlightCase { name: "", start, span, drive };
     let flight = |name: &str| Ok::<_, OrbitError>(cases::all()?.into_iter().find(|case| case.name == name));
     let at = |x: f64, p: f64| ShipState::new(DVec3::X * x, DVec3::X * p);
     let mut all = Vec::new();
@@ -47,7 +47,7 @@ fn places() -> Result<Vec<Place>, OrbitError> {
     all.push(own("thrust of 50 c²/r_s outwards inside, at 0.8 r_s", case(at(0.8, 0.0), 0.3, Drive { thrust: 50.0, turning: 0.0 })));
     let circle = Elements::circle(3.0, 0.0).state()?;
     all.push(Place { name: "steps too large: 10 r_s/c at 3 r_s", case: case(circle, 160.0, coasting), step: 10.0 });
-    let eccentric = flight("eccentric")?.map(|case| own("10⁶ steps: p = 5 r_s, e = 0.5", Case { span: MILLION, ..case }));
+    let eccentric = flight("eccentric")?.map(|case| own("10⁶ steps: p = 5 r_s, e = 0.5", FlightCase { span: MILLION, ..case }));
     all.extend(eccentric);
     Ok(all)
 }

@@ -19,7 +19,7 @@ pub mod triangle;
 pub mod wide;
 
 pub use bundle::EyePacket;
-pub use lensrunner::judge::bvh::{Bounds, Costs, MAX_DEPTH, Node, Scalar, Settings, Tree, bounds, build, order, tree};
+pub use lensrunner::judge::bvh::{Bounds, BvhSettings, Costs, MAX_DEPTH, Node, Scalar, Tree, bounds, build, order, tree};
 pub use packet::EyePackets;
 pub use ray::{Hit, Ray};
 pub use single::Mesh;

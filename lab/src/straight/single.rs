@@ -1,7 +1,7 @@
 //! One ray through the binary tree: the plain method that the others are held against.
 
 use super::bounds::Bounds;
-use super::build::{Settings, build};
+use super::build::{BvhSettings, build};
 use super::ray::{Hit, Ray, Slabs, widening};
 use super::tree::{MAX_DEPTH, Tree};
 use super::triangle::Shear;
@@ -17,7 +17,7 @@ pub struct Mesh {
 
 impl Mesh {
     /// Builds the tree of Sei 2008. Triangles with a corner that is not finite are left out: no ray meets them.
-    pub fn new(triangles: &[[[f32; 3]; 3]], settings: &Settings) -> Mesh {
+    pub fn new(triangles: &[[[f32; 3]; 3]], settings: &BvhSettings) -> Mesh {
         let boxes: Vec<Bounds<f32>> = triangles.iter().map(bounds).collect();
         let tree = build(&boxes, settings);
         let corners = tree.order.iter().map(|&i| triangles[i as usize]).collect();

@@ -1,7 +1,7 @@
 //! Displacements by the judge, vertices by the renderer's counters, times of its passes.
 
 use lensrunner::judge::case::Case;
-use lensrunner::judge::picture::{DEFAULT_PACKET, Picture, Quality};
+use lensrunner::judge::picture::{DEFAULT_PACKET, Sampling, TracedPicture};
 use lensrunner::render::Gpu;
 use lensrunner::render::gpu::types::Counters;
 use lensrunner::render::shot::Moment;
@@ -15,7 +15,7 @@ use crate::compare::deadline::Deadline;
 use crate::compare::measure::displacement::Effort;
 use crate::compare::measure::metrics::{Verdict, compare_with};
 use crate::compare::measure::probe::probe;
-use crate::contestant::Contestant;
+use crate::contestant::GameContestant;
 use crate::offscreen::Offscreen;
 
 /// Error of each step of the judge's rays.
@@ -42,13 +42,13 @@ pub fn measure(request: &TessellationRequest) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::measured(&COLUMNS, &gpu.adapter.name);
     let base = GameConfig::default();
     let ways = Way::all(&request.bounds);
-    let mut contestant = Contestant::default();
+    let mut contestant = GameContestant::default();
     for name in &request.scenes {
         eprintln!("{name}");
         let times = times(&gpu, name, &ways, &base, request)?;
         let own = ways.iter().position(|way| *way == Way::Ours(OWN)).map_or(f64::NAN, |place| times[place].0.median);
         let mut case = Case::new(scene::load(name)?, base.clone(), 0.0, request.size);
-        let judge = case.trace(&Quality { samples: 1, tolerance: TOLERANCE, packet: DEFAULT_PACKET }, false, &|_| ());
+        let judge = case.trace(&Sampling { samples: 1, tolerance: TOLERANCE, packet: DEFAULT_PACKET }, false, &|_| ());
         for (way, (time, counters)) in ways.iter().zip(&times) {
             case.config = way.config(&base);
             contestant.set_midpoint(way.is_midpoint());
@@ -79,7 +79,7 @@ struct Seen {
 }
 
 /// Sets the renderer's picture of the case beside the judge's.
-fn judged(case: &Case, judge: &Picture, contestant: &Contestant) -> Result<Seen, String> {
+fn judged(case: &Case, judge: &TracedPicture, contestant: &GameContestant) -> Result<Seen, String> {
     let frame = contestant.draw(case)?;
     let probe = probe(case, TOLERANCE);
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();

@@ -9,7 +9,7 @@ use crate::thin_disk::ray::{Impact, Ring, Screen};
 pub const MISSING: &str = "not installed (Debian: gyoto-bin)";
 
 /// Gyoto's picture.
-pub struct Picture {
+pub struct GyotoPicture {
     /// Row by row from the top.
     pub impacts: Vec<Impact>,
     /// The bolometric flux that Gyoto itself gives for each pixel, in its unit; not a number where it misses the disk.
@@ -21,7 +21,7 @@ pub struct Picture {
 }
 
 /// Runs Gyoto on one thread with this absolute and relative tolerance.
-pub fn picture(screen: &Screen, ring: &Ring, tolerance: f64) -> Result<Picture, String> {
+pub fn picture(screen: &Screen, ring: &Ring, tolerance: f64) -> Result<GyotoPicture, String> {
     let version = Command::new("gyoto").arg("--version").output().map_err(|_| MISSING.to_owned())?;
     let version = String::from_utf8_lossy(&version.stdout).lines().next().unwrap_or("?").to_owned();
     let folder = std::env::temp_dir().join(format!("lensrunner-gyoto-{}", std::process::id()));
@@ -38,7 +38,7 @@ pub fn picture(screen: &Screen, ring: &Ring, tolerance: f64) -> Result<Picture, 
         return Err(format!("gyoto failed: {}", String::from_utf8_lossy(&run.stderr).lines().last().unwrap_or("")));
     }
     let (impacts, fluxes) = impacts(&fits?, screen)?;
-    Ok(Picture { impacts, fluxes, rate: (screen.pixels * screen.pixels) as f64 / seconds, version })
+    Ok(GyotoPicture { impacts, fluxes, rate: (screen.pixels * screen.pixels) as f64 / seconds, version })
 }
 
 /// Its own example, with our numbers; lengths in M = r_s/2.

@@ -15,7 +15,7 @@ use glam::DVec3;
 use crate::chart::{ChartError, Output, Sheet};
 use crate::thin_disk::ray::{Impact, Ring, Screen, image};
 use lensrunner::argument::whole;
-use lensrunner::judge::picture::{Crossing, World};
+use lensrunner::judge::picture::{PlaneCrossing, World};
 use lensrunner::scene::disk::radial::page_thorne_flux;
 use lensrunner::spacetime::frames;
 use lensrunner::spacetime::matter::{ShipState, gamma};
@@ -71,7 +71,7 @@ fn hovering(position: DVec3) -> ShipState {
 }
 
 /// g from the two four-velocities alone.
-fn shift(crossing: &Crossing, blue: f64) -> f64 {
+fn shift(crossing: &PlaneCrossing, blue: f64) -> f64 {
     let x = crossing.position;
     let r = x.length();
     let outward = x / r;

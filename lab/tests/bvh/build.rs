@@ -1,7 +1,7 @@
 //! Trees over boxes: valid for every input, wrong ones found.
 
 use glam::DVec3;
-use lensrunner_lab::straight::{Bounds, Costs, MAX_DEPTH, Node, Scalar, Settings, Tree, build};
+use lensrunner_lab::straight::{Bounds, BvhSettings, Costs, MAX_DEPTH, Node, Scalar, Tree, build};
 use proptest::prelude::*;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -18,7 +18,7 @@ fn row(number: usize) -> Vec<Bounds<f64>> {
 }
 
 fn built<T: Scalar>(boxes: &[Bounds<T>], max_leaf: usize) -> Tree<T> {
-    let tree = build(boxes, &Settings { max_leaf, ..Settings::default() });
+    let tree = build(boxes, &BvhSettings { max_leaf, ..BvhSettings::default() });
     let census = validate(&tree, boxes).unwrap();
     assert!(census.fullest <= max_leaf && census.depth <= MAX_DEPTH, "{census:?}");
     tree
@@ -38,13 +38,13 @@ fn the_heuristic_weighs_two_to_one() {
     // not.
     let far = |number: usize| {
         let boxes: Vec<_> = (0..number).map(|i| cube(if i % 2 == 0 { 0.0 } else { 1e6 }, 0.0, 0.0, 1.0)).collect();
-        build(&boxes, &Settings { max_leaf: 100, ..Settings::default() }).nodes.len()
+        build(&boxes, &BvhSettings { max_leaf: 100, ..BvhSettings::default() }).nodes.len()
     };
     assert_eq!([far(2), far(4), far(5), far(20)], [1, 1, 3, 3]);
-    let dear = Settings { costs: Costs { node: 0.0, primitive: 1.0 }, max_leaf: 100 };
+    let dear = BvhSettings { costs: Costs { node: 0.0, primitive: 1.0 }, max_leaf: 100 };
     assert_eq!(build(&row(2), &dear).nodes.len(), 3, "with free boxes everything is split");
     // The root alone: cost n; the cost of a whole tree is what the leaf or split choices add up to.
-    let tree = build(&row(2), &Settings::default());
+    let tree = build(&row(2), &BvhSettings::default());
     assert_eq!(tree.cost(Costs::default()), 2.0);
 }
 
@@ -138,10 +138,10 @@ proptest! {
                 Bounds { min, max: std::array::from_fn(|a| min[a] + extent[a] as f32) }
             })
             .collect();
-        let tree = build(&boxes, &Settings { max_leaf, ..Settings::default() });
+        let tree = build(&boxes, &BvhSettings { max_leaf, ..BvhSettings::default() });
         let census = validate(&tree, &boxes).unwrap();
         prop_assert!(census.fullest <= max_leaf);
-        prop_assert_eq!(&tree, &build(&boxes, &Settings { max_leaf, ..Settings::default() }));
+        prop_assert_eq!(&tree, &build(&boxes, &BvhSettings { max_leaf, ..BvhSettings::default() }));
     }
 }
 
@@ -155,7 +155,7 @@ fn long_needles_make_no_deep_tree_and_no_slow_one() {
         [from, from + (to - from).cross(aside).normalize_or(DVec3::Z) * 2e-4, to].map(|corner| corner.as_vec3().to_array())
     };
     let boxes: Vec<Bounds<f32>> = (0..5000).map(|_| Bounds::around(needle())).collect();
-    let tree = build(&boxes, &Settings::default());
+    let tree = build(&boxes, &BvhSettings::default());
     validate(&tree, &boxes).unwrap();
     // The heuristic finds hardly a plane that parts them, and might take one away at a time: each level looks at all of its needles again.
     let mut looked = 0;

@@ -1,8 +1,8 @@
 //! Straight rays: every method against brute force in f64 and, bit for bit, against each other.
 
 use glam::{DVec3, Vec3};
-use lensrunner_lab::straight::scenes::{Scene, Triangle, View, bunny, castle, spd};
-use lensrunner_lab::straight::{EyePacket, EyePackets, Hit, Instructions, Mesh, Packets, Ray, Settings, Wide, order};
+use lensrunner_lab::straight::scenes::{SceneView, TestScene, Triangle, bunny, castle, spd};
+use lensrunner_lab::straight::{BvhSettings, EyePacket, EyePackets, Hit, Instructions, Mesh, Packets, Ray, Wide, order};
 use rand::rngs::StdRng;
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
@@ -56,7 +56,7 @@ fn differences(triangles: &[Triangle], rays: &[Ray], hits: &[Hit]) -> usize {
     within
 }
 
-fn view_rays(view: &View, size: [usize; 2]) -> Vec<Ray> {
+fn view_rays(view: &SceneView, size: [usize; 2]) -> Vec<Ray> {
     let eye = view.eye.map(|c| c as f32);
     view.directions(size).into_iter().map(|d| Ray::new(eye, d)).collect()
 }
@@ -107,14 +107,14 @@ fn soup(number: usize, random: &mut StdRng) -> Vec<Triangle> {
         .collect()
 }
 
-fn small_scenes() -> Vec<Scene> {
+fn small_scenes() -> Vec<TestScene> {
     let blob = bunny::geodesic(9).into_iter().map(|t| t.map(|p| (p * 0.5).as_vec3().to_array())).collect();
     let random = &mut StdRng::seed_from_u64(1);
     vec![
-        Scene { name: "balls1", triangles: spd::balls(1), view: spd::BALLS_VIEW },
-        Scene { name: "tree3", triangles: spd::tree(3), view: spd::TREE_VIEW },
-        Scene { name: "blob", triangles: blob, view: bunny::VIEW },
-        Scene { name: "soup", triangles: soup(900, random), view: bunny::VIEW },
+        TestScene { name: "balls1", triangles: spd::balls(1), view: spd::BALLS_VIEW },
+        TestScene { name: "tree3", triangles: spd::tree(3), view: spd::TREE_VIEW },
+        TestScene { name: "blob", triangles: blob, view: bunny::VIEW },
+        TestScene { name: "soup", triangles: soup(900, random), view: bunny::VIEW },
     ]
 }
 
@@ -137,7 +137,7 @@ fn closest_packet(wide: &Wide, rays: &[Ray], size: usize) -> Vec<Hit> {
 fn every_ray_as_brute_force_finds_it() {
     let random = &mut StdRng::seed_from_u64(2);
     for scene in small_scenes() {
-        let mesh = Mesh::new(&scene.triangles, &Settings::default());
+        let mesh = Mesh::new(&scene.triangles, &BvhSettings::default());
         let wide = Wide::new(&scene.triangles);
         let primary = view_rays(&scene.view, [64, 48]);
         let first: Vec<Hit> = primary.iter().map(|ray| mesh.closest(ray)).collect();
@@ -205,7 +205,7 @@ fn packets_of_every_size_and_order_give_the_bits_of_single_rays() {
 #[test]
 fn paper_four_s_packets_give_the_bits_of_single_rays() {
     for scene in small_scenes() {
-        let mesh = Mesh::new(&scene.triangles, &Settings::default());
+        let mesh = Mesh::new(&scene.triangles, &BvhSettings::default());
         let rays = view_rays(&scene.view, [64, 32]);
         let eye = rays[0].origin;
         let forward = (DVec3::from(scene.view.target) - DVec3::from(scene.view.eye)).normalize();
@@ -288,7 +288,7 @@ fn the_scenes_have_their_numbers_of_triangles() {
 /// The statistics that come with the databases: hits of the 513 × 513 rays through the corners of the pixels.
 #[test]
 fn eye_hits_of_the_procedural_databases() {
-    let eye_hits = |triangles: &[Triangle], view: &View| {
+    let eye_hits = |triangles: &[Triangle], view: &SceneView| {
         let wide = Wide::new(triangles);
         let eye = view.eye.map(|c| c as f32);
         let along = |i: usize| i as f64 / 256.0 - 1.0;

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use lensrunner_lab::straight::scenes::{Triangle, bunny::ball, spd};
-use lensrunner_lab::straight::{Hit, Mesh, Packets, Ray, Settings, Wide};
+use lensrunner_lab::straight::{BvhSettings, Hit, Mesh, Packets, Ray, Wide};
 use proptest::prelude::*;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -26,7 +26,7 @@ fn agree(rays: &[Ray], hits: &[Hit], plain: &[Hit], how: &str) {
 }
 
 fn both(triangles: &[Triangle]) -> (Mesh, Wide) {
-    (Mesh::new(triangles, &Settings::default()), Wide::new(triangles))
+    (Mesh::new(triangles, &BvhSettings::default()), Wide::new(triangles))
 }
 
 /// The 26 directions along axes and diagonals, zeros of either sign.
@@ -340,7 +340,7 @@ fn degenerate_triangles_harm_nobody() {
 #[test]
 fn axis_rays_visit_few_nodes() {
     let triangles = spd::balls(3);
-    let mesh = Mesh::new(&triangles, &Settings::default());
+    let mesh = Mesh::new(&triangles, &BvhSettings::default());
     let mut most = 0;
     for axis in 0..3 {
         for sign in [-1.0, 1.0] {

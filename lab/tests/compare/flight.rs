@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use lensrunner::judge::case::Case;
-use lensrunner::scene::crew::Crew;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{GameConfig, Scene};
 use lensrunner::sim::Moment;
 use lensrunner_lab::compare::Shown;
@@ -40,7 +40,7 @@ fn scene() -> Scene {
 #[test]
 fn oppositions_are_found_and_the_rest_is_spread() {
     let config = GameConfig::default();
-    let found = survey(&scene(), &config, 1, 160.0, Crew::Expert);
+    let found = survey(&scene(), &config, 1, 160.0, PilotKind::Expert);
     assert_eq!(found.steps as f64 * config.clock.step, 160.0);
     // A turn takes 2π√(2·4³) = 71 r_s/c: two oppositions.
     let near = found.angles.windows(3).filter(|w| w[1] > w[0] && w[1] >= w[2] && w[1] > PI - 0.01).count();
@@ -83,14 +83,14 @@ fn a_frozen_moment_is_the_same_place_without_its_past() {
 #[test]
 fn a_ship_in_hands_is_drawn_where_it_is() {
     let scene = lensrunner::scene::load("06-the-long-shot").unwrap();
-    let contestant = lensrunner_lab::contestant::Contestant::default();
+    let contestant = lensrunner_lab::contestant::GameContestant::default();
     let mut tally = Tally::default();
     for (seed, count) in [(0, 1), (1, 1), (2, 1), (3, 2), (4, 2)] {
         let mut config = scene.config(&GameConfig::default(), lensrunner::scene::Difficulty::Normal);
         config.clock.pace = pace(seed);
         let chosen = hands::choose(&scene, &config, seed, 20.0, count);
         assert_eq!(chosen, hands::choose(&scene, &config, seed, 20.0, count));
-        let mut moment = Moment::with_crew(&scene, &config, seed, Crew::Hands);
+        let mut moment = Moment::with_pilot(&scene, &config, seed, PilotKind::Hands);
         let mut now = 0;
         for step in chosen {
             moment.advance(step - now);

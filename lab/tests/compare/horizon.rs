@@ -2,7 +2,7 @@
 //! time.
 
 use lensrunner::judge::case::Case;
-use lensrunner::judge::picture::Quality;
+use lensrunner::judge::picture::Sampling;
 use lensrunner::scene::{self, GameConfig};
 use lensrunner_lab::contestant;
 
@@ -14,7 +14,7 @@ fn ships_are_whole_where_the_camera_crosses_the_horizon() {
     for at in [1.1, 1.2, 1.25] {
         let case = Case::new(scene::load("plunge").unwrap(), GameConfig::default(), at, size);
         let frame = contestant::draw(&case).unwrap();
-        let judge = case.trace(&Quality { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
+        let judge = case.trace(&Sampling { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
         let wanted = |x: usize, y: usize| judge.layers[y * size[0] as usize + x].object;
         let (mut inner, mut wrong) = (0, 0);
         for y in 1..size[1] as usize - 1 {
@@ -40,7 +40,7 @@ fn parts_of_a_ship_beside_the_camera_hide_each_other() {
     let size = [160, 90];
     let case = Case::new(scene::load("plunge").unwrap(), GameConfig::default(), 1.5, size);
     let frame = contestant::draw(&case).unwrap();
-    let judge = case.trace(&Quality { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
+    let judge = case.trace(&Sampling { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
     let (mut inner, mut wrong) = (0, 0);
     for y in 1..size[1] as usize - 1 {
         for x in 1..size[0] as usize - 1 {

@@ -9,7 +9,7 @@ mod sprites;
 mod thin;
 
 use lensrunner::render::Renderer;
-use lensrunner::render::disk::Disk;
+use lensrunner::render::disk::DrawnDisk;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::settings::Settings;
 use lensrunner::scene::GameConfig;
@@ -18,10 +18,10 @@ use lensrunner::spacetime::Observer;
 use crate::render_support::settings;
 
 /// The disk of a configuration that is the game's but for `change`.
-fn disk_with(change: impl FnOnce(&mut GameConfig)) -> Disk {
+fn disk_with(change: impl FnOnce(&mut GameConfig)) -> DrawnDisk {
     let mut config = GameConfig::default();
     change(&mut config);
-    Disk::new(config.disk.clone(), &config)
+    DrawnDisk::new(config.disk.clone(), &config)
 }
 
 /// So many image orders. With a budget of many pixels there is no third one unasked.

@@ -3,7 +3,7 @@
 
 use glam::{DQuat, DVec3};
 use lensrunner::render::Renderer;
-use lensrunner::render::gpu::readback::Picture;
+use lensrunner::render::gpu::readback::ReadbackPicture;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::{Stage, static_camera};
 use lensrunner::scene::disk::Gas;
@@ -33,7 +33,7 @@ fn balls(
     config: &GameConfig,
     disk: bool,
     settings: &Settings,
-) -> Picture {
+) -> ReadbackPicture {
     let mut text = if disk { "[disk]\n" } else { "" }.to_string();
     for (k, (p, size)) in balls.iter().enumerate() {
         text += &format!(

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use lensrunner::lensing::methods::flat;
 use lensrunner::render::Renderer;
-use lensrunner::render::disk::Disk;
+use lensrunner::render::disk::DrawnDisk;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::Stage;
 use lensrunner::scene::disk::RENEWAL;
@@ -139,7 +139,14 @@ fn without_lensing_the_disk_is_the_same_on_both_sides_of_the_horizon() {
 }
 
 /// Linear light of a picture of the disk as it is configured, drawn at a time, and the exact one with that many image orders.
-fn drawn_and_exact(renderer: &mut Renderer, disk: &Disk, camera: Observer, size: [u32; 2], time: f64, orders: u32) -> [Vec<[f32; 3]>; 2] {
+fn drawn_and_exact(
+    renderer: &mut Renderer,
+    disk: &DrawnDisk,
+    camera: Observer,
+    size: [u32; 2],
+    time: f64,
+    orders: u32,
+) -> [Vec<[f32; 3]>; 2] {
     renderer.set_disk(Some(disk.clone()));
     let got = shown(renderer, camera, time, of_orders(orders));
     [got, disk::picture(&disk.gas, &camera, size, time, orders, 2)]

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use lensrunner::render::disk::Disk;
+use lensrunner::render::disk::DrawnDisk;
 use lensrunner::render::gpu::readback;
 use lensrunner::render::gpu::types::SeenVertex;
 use lensrunner::render::settings::Settings;
@@ -16,7 +16,7 @@ use super::{disk_with, shown};
 use crate::gpu::GPU;
 use crate::render_support::{camera, renderer, settings};
 
-fn polygons(representation: &str) -> Disk {
+fn polygons(representation: &str) -> DrawnDisk {
     disk_with(|config| config.disk.representation = representation.into())
 }
 

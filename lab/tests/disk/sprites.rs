@@ -1,7 +1,7 @@
 //! The disk of sprites beside the disk of arcs and the exact picture.
 
 use lensrunner::render::Renderer;
-use lensrunner::render::disk::Disk;
+use lensrunner::render::disk::DrawnDisk;
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::sprites::Sprites;
@@ -12,7 +12,7 @@ use super::{disk_with, green, of_orders, shown};
 use crate::render_support::{camera, renderer};
 use crate::twin::run;
 
-fn with(representation: &str, change: impl Fn(&mut GameConfig)) -> Disk {
+fn with(representation: &str, change: impl Fn(&mut GameConfig)) -> DrawnDisk {
     disk_with(|config| {
         config.disk.representation = representation.into();
         change(config);
@@ -20,11 +20,11 @@ fn with(representation: &str, change: impl Fn(&mut GameConfig)) -> Disk {
 }
 
 /// Linear light of so many image orders.
-fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Observer, orders: u32) -> Vec<[f32; 3]> {
+fn drawn(renderer: &mut Renderer, disk: &DrawnDisk, camera: Observer, orders: u32) -> Vec<[f32; 3]> {
     drawn_at(renderer, disk, camera, 100.0, orders)
 }
 
-fn drawn_at(renderer: &mut Renderer, disk: &Disk, camera: Observer, time: f64, orders: u32) -> Vec<[f32; 3]> {
+fn drawn_at(renderer: &mut Renderer, disk: &DrawnDisk, camera: Observer, time: f64, orders: u32) -> Vec<[f32; 3]> {
     renderer.set_disk(Some(disk.clone()));
     shown(renderer, camera, time, of_orders(orders))
 }

@@ -3,19 +3,19 @@
 use std::f64::consts::{PI, TAU};
 
 use lensrunner::spacetime::orbit::orbital_frequency;
-use lensrunner_lab::flight::cases::{self, Case, DROP, ECCENTRIC_PERIOD};
+use lensrunner_lab::flight::cases::{self, DROP, ECCENTRIC_PERIOD, FlightCase};
 use lensrunner_lab::flight::measure::Errors;
 use lensrunner_lab::flight::methods::{Effort, Method, fly};
 use lensrunner_lab::flight::truth::{Drive, energy, later};
 
-fn case(name: &str) -> Case {
+fn case(name: &str) -> FlightCase {
     cases::all().unwrap().into_iter().find(|case| case.name == name).unwrap()
 }
 
 /// One period of the eccentric orbit: the error of a method of order n falls by 2ⁿ where its step is halved.
 #[test]
 fn methods_have_their_orders() {
-    let orbit = Case { span: ECCENTRIC_PERIOD, ..case("eccentric") };
+    let orbit = FlightCase { span: ECCENTRIC_PERIOD, ..case("eccentric") };
     let truth = orbit.truth();
     let phase = |method, steps| Errors::of(&fly(method, &orbit, Effort::Steps(steps)), &truth).phase;
     // Before steps are short terms of higher orders count as well; of DOP853 they still do where it meets rounding.
@@ -35,7 +35,7 @@ fn methods_have_their_orders() {
 /// With the engine on the splitting keeps its order, too.
 #[test]
 fn splittings_keep_their_orders_under_thrust() {
-    let powered = Case { span: 50.0, ..case("powered") };
+    let powered = FlightCase { span: 50.0, ..case("powered") };
     let truth = powered.truth();
     let phase = |method, steps| Errors::of(&fly(method, &powered, Effort::Steps(steps)), &truth).phase;
     for (method, order) in [(Method::Split2, 2.0), (Method::Split4, 4.0)] {
@@ -47,7 +47,7 @@ fn splittings_keep_their_orders_under_thrust() {
 /// Steps by tolerance hold what is asked for, within what errors gather over a period.
 #[test]
 fn tolerances_are_kept() {
-    let orbit = Case { span: ECCENTRIC_PERIOD, ..case("eccentric") };
+    let orbit = FlightCase { span: ECCENTRIC_PERIOD, ..case("eccentric") };
     let truth = orbit.truth();
     for method in [Method::Dopri5, Method::Dop853] {
         for tolerance in [1e-6, 1e-9, 1e-12] {

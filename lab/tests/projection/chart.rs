@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use lensrunner::lensing::methods::{Exact, Projector, Query, Sight};
+use lensrunner::lensing::methods::{Exact, ProjectionInput, Projector, Sight};
 use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner_lab::chart::{Output, Sheet};
 use lensrunner_lab::projection::{self, ProjectionRequest, rows, score, truth};
@@ -10,7 +10,7 @@ use lensrunner_lab::projection::{self, ProjectionRequest, rows, score, truth};
 #[test]
 fn the_points_are_adversarial() {
     let drawn = rows(300_000, 5);
-    let share = |what: &dyn Fn(&Query) -> bool| drawn.iter().filter(|row| what(&row.query)).count() as f64 / drawn.len() as f64;
+    let share = |what: &dyn Fn(&ProjectionInput) -> bool| drawn.iter().filter(|row| what(&row.input)).count() as f64 / drawn.len() as f64;
     // A third, and what the log-uniform two thirds put there: ln(1.6/0.95)/ln(5000/0.05).
     let expected = 1.0 / 3.0 + 2.0 / 3.0 * (1.6f64 / 0.95).ln() / 1e5f64.ln();
     assert!((share(&|q| (0.95..1.6).contains(&q.camera)) - expected).abs() < 0.03);
@@ -18,26 +18,26 @@ fn the_points_are_adversarial() {
     assert!(share(&|q| q.phi < 1e-3) > 0.05 && share(&|q| q.phi > std::f64::consts::PI - 1e-3) > 0.05, "φ clusters at 0 and π");
     assert!(share(&|q| q.r < 1.0 && q.camera < 1.0) > 0.05, "some are inside");
     for row in &drawn {
-        let Query { r, phi, camera } = row.query;
+        let ProjectionInput { r, phi, camera } = row.input;
         let distance = (r * phi.cos() - camera).hypot(r * phi.sin());
         assert!(distance > 0.99e-4 * camera && (0.05..=5000.0).contains(&camera), "{row:?}");
         assert!((1.0005..=1e4).contains(&r) || (camera < 1.0 && r < 1.0), "{row:?}");
     }
     // A graphics adapter answers the same rows, a camera at a time.
-    assert!(drawn.chunks(100).all(|rows| rows.iter().all(|row| row.query.camera == rows[0].query.camera)));
+    assert!(drawn.chunks(100).all(|rows| rows.iter().all(|row| row.input.camera == rows[0].input.camera)));
     let again = rows(300_000, 5);
-    assert!(drawn.iter().zip(&again).all(|(a, b)| a.query == b.query && a.branch == b.branch), "the same seed, the same points");
+    assert!(drawn.iter().zip(&again).all(|(a, b)| a.input == b.input && a.branch == b.branch), "the same seed, the same points");
 }
 
 /// The exact ray, spoiled by what is known: 0.01 rad and 3 r_s/c too much, no answer beyond φ = 3, and one where there is none.
 struct Spoiled;
 
 impl Projector for Spoiled {
-    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
-        if query.phi > 3.0 {
+    fn project(&self, input: ProjectionInput, order: Order, branch: Branch) -> Option<Sight> {
+        if input.phi > 3.0 {
             return None;
         }
-        match Exact.project(query, order, branch) {
+        match Exact.project(input, order, branch) {
             Some(sight) => Some(Sight { psi_rain: sight.psi_rain + 0.01, delay: sight.delay + 3.0, ..sight }),
             None => Some(Sight { psi_rain: 1.0, psi_static: None, delay: 1.0 }),
         }
@@ -50,8 +50,8 @@ fn a_score_finds_what_was_spoiled() {
     for order in Order::ALL {
         let truth = truth(&drawn, order);
         let found = score(&Spoiled, &drawn, &truth, order);
-        let lit = |far: bool| drawn.iter().zip(&truth).filter(|(row, t)| t.is_some() && (row.query.phi > 3.0) == far).count();
-        let dark = drawn.iter().zip(&truth).filter(|(row, t)| t.is_none() && row.query.phi <= 3.0).count();
+        let lit = |far: bool| drawn.iter().zip(&truth).filter(|(row, t)| t.is_some() && (row.input.phi > 3.0) == far).count();
+        let dark = drawn.iter().zip(&truth).filter(|(row, t)| t.is_none() && row.input.phi <= 3.0).count();
         assert!(dark > 50, "some rows have no ray");
         assert_eq!((found.answered, found.missing, found.invented), (lit(false), lit(true), dark), "{order:?}");
         for value in [found.angle.max, found.angle.most, found.angle.rms] {

@@ -1,6 +1,6 @@
 //! The methods that the chart sets beside the game's: what they answer where there is no light, and how near they come.
 
-use lensrunner::lensing::methods::{Exact, Flat, Projector, Query, Table};
+use lensrunner::lensing::methods::{Exact, Flat, ProjectionInput, Projector, Table};
 use lensrunner::lensing::{Slice, lens_lookup_at, score};
 use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner_lab::projection::methods::{Approximation, Batch, Integrate, catalogue, lens_lookup_batch};
@@ -27,14 +27,14 @@ fn no_point_jumps_on_the_fall_through_the_horizon() {
 #[test]
 fn the_approximations_do_what_their_authors_say() {
     for (r, phi, camera) in [(3.0, 1.0, 50.0), (5.0, 1.5, 200.0), (40.0, 1.2, 4.0), (6.0, 0.3, 8.0)] {
-        let query = Query { r, phi, camera };
-        let psi = |method: &dyn Projector| method.project(query, Order::ALL[0], Branch::Plus).expect("seen").psi_rain.to_degrees();
+        let input = ProjectionInput { r, phi, camera };
+        let psi = |method: &dyn Projector| method.project(input, Order::ALL[0], Branch::Plus).expect("seen").psi_rain.to_degrees();
         let exact = psi(&Exact);
         let off = |method: &dyn Projector| (psi(method) - exact).abs();
         let (flat, rough, fine) = (off(&Flat), off(&Approximation::Beloborodov), off(&Approximation::Poutanen));
-        assert!(rough < 0.2 && fine < 0.1 && rough < flat, "{query:?}: flat {flat}°, Beloborodov {rough}°, Poutanen {fine}°");
-        let delay = |method: &dyn Projector| method.project(query, Order::ALL[0], Branch::Plus).expect("seen").delay;
-        assert!((delay(&Approximation::Poutanen) - delay(&Exact)).abs() < 0.15, "{query:?}");
+        assert!(rough < 0.2 && fine < 0.1 && rough < flat, "{input:?}: flat {flat}°, Beloborodov {rough}°, Poutanen {fine}°");
+        let delay = |method: &dyn Projector| method.project(input, Order::ALL[0], Branch::Plus).expect("seen").delay;
+        assert!((delay(&Approximation::Poutanen) - delay(&Exact)).abs() < 0.15, "{input:?}");
     }
 }
 
@@ -42,11 +42,11 @@ fn the_approximations_do_what_their_authors_say() {
 #[test]
 fn the_integrator_converges() {
     for (r, phi, camera) in [(20.0, 2.0, 10.0), (3.0, 1.0, 1.2), (4.0, 2.5, 0.6)] {
-        let query = Query { r, phi, camera };
-        let psi = |method: &dyn Projector| method.project(query, Order::ALL[0], Branch::Plus).expect("seen").psi_rain;
+        let input = ProjectionInput { r, phi, camera };
+        let psi = |method: &dyn Projector| method.project(input, Order::ALL[0], Branch::Plus).expect("seen").psi_rain;
         let exact = psi(&Exact);
         let off = |steps: usize| (psi(&Integrate { steps }) - exact).abs();
-        assert!(off(32) > 8.0 * off(64) && off(256) < 1e-6, "{query:?}: {} {} {}", off(32), off(64), off(256));
+        assert!(off(32) > 8.0 * off(64) && off(256) < 1e-6, "{input:?}: {} {} {}", off(32), off(64), off(256));
     }
 }
 
@@ -88,14 +88,14 @@ fn the_batch_agrees_with_the_lookup() {
 fn the_batch_answers_for_both_signs_of_energy() {
     let (one, eight) = (Table(table().clone()), Batch(Table(table().clone())));
     for (r, phi, camera) in [(0.8, 0.2, 0.5), (0.9, 0.3, 0.2), (5.0, 1.0, 0.5), (5.0, 1.0, 3.0)] {
-        let query = Query { r, phi, camera };
+        let input = ProjectionInput { r, phi, camera };
         let [plus, minus] = [Branch::Plus, Branch::Minus].map(|branch| {
             let [one, eight] = [&one as &dyn Projector, &eight]
-                .map(|method| method.project(query, Order::ALL[0], branch).unwrap_or_else(|| panic!("{query:?} {branch:?}: nothing seen")));
+                .map(|method| method.project(input, Order::ALL[0], branch).unwrap_or_else(|| panic!("{input:?} {branch:?}: nothing seen")));
             let off = (one.psi_rain - eight.psi_rain).abs().max((one.delay - eight.delay).abs() / (1.0 + one.delay));
-            assert!(off < 1e-4, "{query:?} {branch:?}: {one:?} and {eight:?}");
+            assert!(off < 1e-4, "{input:?} {branch:?}: {one:?} and {eight:?}");
             eight
         });
-        assert_eq!((plus.psi_rain - minus.psi_rain).abs() > 1e-5, r < 1.0, "inside the two differ, from outside there is one: {query:?}");
+        assert_eq!((plus.psi_rain - minus.psi_rain).abs() > 1e-5, r < 1.0, "inside the two differ, from outside there is one: {input:?}");
     }
 }

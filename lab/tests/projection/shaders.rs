@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lensrunner::lensing::lookup::{OLD, YOUNG, lens_lookup_aged};
-use lensrunner::lensing::methods::{Exact, Method, Projector, Query, exact, flat, paper};
+use lensrunner::lensing::methods::{Exact, Method, ProjectionInput, Projector, exact, flat, paper};
 use lensrunner::lensing::{Scheme, Slice, bake};
 use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner_lab::projection::methods::Paper;
@@ -22,9 +22,9 @@ fn angle(answer: [f32; 4]) -> f64 {
     f64::from(answer[1]).atan2(f64::from(answer[0]))
 }
 
-fn query(row: [f32; 4], camera: f64) -> Query {
+fn input(row: [f32; 4], camera: f64) -> ProjectionInput {
     let (height, across) = (f64::from(row[2]), f64::from(row[1]));
-    Query { r: height.hypot(across), phi: across.atan2(height), camera }
+    ProjectionInput { r: height.hypot(across), phi: across.atan2(height), camera }
 }
 
 /// Rows of a camera: points outside from next to the horizon to far away, and for a camera inside also inside.
@@ -81,11 +81,11 @@ fn the_exact_method_is_exact() {
         let rows = rows(l, &mut random);
         let (mut seen, mut off) = (0, 0);
         for (row, [a, _]) in rows.iter().zip(race.look_up(exact::METHOD, l, &rows).unwrap()) {
-            let query = query(*row, l);
-            if query.r <= 1.0 {
+            let input = input(*row, l);
+            if input.r <= 1.0 {
                 continue;
             }
-            let want = Exact.project(query, Order::new(row[3] as u8 % 4).unwrap(), Branch::Plus);
+            let want = Exact.project(input, Order::new(row[3] as u8 % 4).unwrap(), Branch::Plus);
             let Some(want) = want.filter(|_| a[3] == 1.0) else {
                 off += usize::from((a[3] == 1.0) != want.is_some());
                 continue;
@@ -128,13 +128,13 @@ fn paper_ones_fetch_is_the_same_on_both() {
         let mut seen = 0;
         for (row, [a, _]) in rows.iter().zip(race.look_up(paper::METHOD, l, &rows).unwrap()) {
             let order = row[3] as u8 % 4;
-            let query = query(*row, l);
-            let Some(want) = paper.project(query, Order::new(order).unwrap(), Branch::Plus) else { continue };
-            assert_eq!(a[3], 1.0, "{query:?}");
+            let input = input(*row, l);
+            let Some(want) = paper.project(input, Order::new(order).unwrap(), Branch::Plus) else { continue };
+            assert_eq!(a[3], 1.0, "{input:?}");
             seen += 1;
             let off = (angle(a) - want.psi_rain).abs();
             // Next to the horizon aberration stretches what f32 leaves of ψ near π.
-            assert!(off < 2e-4 && (f64::from(a[2]) - want.delay).abs() < 1e-4 * (1.0 + want.delay.abs()), "{query:?}: {a:?}, {want:?}");
+            assert!(off < 2e-4 && (f64::from(a[2]) - want.delay).abs() < 1e-4 * (1.0 + want.delay.abs()), "{input:?}: {a:?}, {want:?}");
         }
         assert!(seen > 800, "{seen} at {l}");
     }

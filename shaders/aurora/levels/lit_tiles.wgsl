@@ -1,7 +1,7 @@
 #define_import_path lensrunner::aurora::levels::lit_tiles
 
 // The numbers of each image of the aurora while it is drawn, and the lit tiles into which the screen is divided: only tiles with light are
-// cleared, enlarged into and coloured. Twin of src/render/aurora/rooms.rs.
+// cleared, enlarged into and coloured. Twin of src/render/aurora/capacities.rs.
 
 /// Levels of the pyramid, each of half the size of the one before.
 const PYRAMID: u32 = 7u;

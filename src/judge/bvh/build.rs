@@ -28,16 +28,16 @@ use super::tree::{Costs, MAX_DEPTH, Node, Tree};
 
 /// How a tree is built.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct BvhSettings {
     /// The costs that are weighed.
     pub costs: Costs,
     /// No leaf holds more primitives than this, at least 1; the heuristic alone would put 100,000 equal boxes into one leaf.
     pub max_leaf: usize,
 }
 
-impl Default for Settings {
-    fn default() -> Settings {
-        Settings { costs: Costs::default(), max_leaf: 16 }
+impl Default for BvhSettings {
+    fn default() -> BvhSettings {
+        BvhSettings { costs: Costs::default(), max_leaf: 16 }
     }
 }
 
@@ -48,7 +48,7 @@ const HALVE_FROM: usize = MAX_DEPTH - 32;
 ///
 /// # Panics
 /// With 2³¹ boxes or more: nodes are numbered in 32 bits.
-pub fn build<T: Scalar>(boxes: &[Bounds<T>], settings: &Settings) -> Tree<T> {
+pub fn build<T: Scalar>(boxes: &[Bounds<T>], settings: &BvhSettings) -> Tree<T> {
     assert!(boxes.len() < 1 << 31, "{} boxes are more than a tree can number", boxes.len());
     let kept: Vec<u32> = (0..boxes.len() as u32).filter(|&i| boxes[i as usize].is_proper()).collect();
     let left_out = boxes.len() - kept.len();
@@ -88,7 +88,7 @@ pub fn build<T: Scalar>(boxes: &[Bounds<T>], settings: &Settings) -> Tree<T> {
 
 struct Work<'a, T> {
     boxes: &'a [Bounds<T>],
-    settings: &'a Settings,
+    settings: &'a BvhSettings,
     /// The primitives by their centres along x, y, z; a node owns the same range of all three.
     sorted: [Vec<u32>; 3],
     /// By primitive: whether it goes to the first child.

@@ -13,5 +13,5 @@ pub mod order;
 pub mod tree;
 
 pub use bounds::{Bounds, Scalar};
-pub use build::{Settings, build};
+pub use build::{BvhSettings, build};
 pub use tree::{Costs, MAX_DEPTH, Node, Tree};

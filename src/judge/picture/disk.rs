@@ -3,14 +3,14 @@
 
 use glam::{DVec3, Vec3};
 
-use super::shade::{Shift, black_body_seen};
+use super::shade::{LightShift, black_body_seen};
 use crate::scene::blackbody;
 use crate::scene::disk::{DISK_UNIT, Gas};
 use crate::spacetime::matter::gamma;
 
 /// A ray on its way through the plane of the disk.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
+pub struct PlaneCrossing {
     /// Where, in r_s; z = 0.
     pub position: DVec3,
     /// Rain-frame momentum of the light there, in units of the frequency that a rain observer at the camera sees.
@@ -39,7 +39,7 @@ impl Disk {
 
     /// The light that a crossing adds to a ray at camera time `time`, and the share of light from behind that it stops. `blue` is ν_camera
     /// over the frequency that a rain observer at the camera sees.
-    pub fn light(&self, crossing: &Crossing, blue: f64, time: f64, shift: Shift) -> (Vec3, f32) {
+    pub fn light(&self, crossing: &PlaneCrossing, blue: f64, time: f64, shift: LightShift) -> (Vec3, f32) {
         let position = crossing.position;
         let r = position.truncate().length();
         let [inner, outer] = self.gas.extent();

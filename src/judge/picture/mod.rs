@@ -22,32 +22,32 @@ use std::sync::Arc;
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
-pub use disk::{Crossing, Disk};
+pub use disk::{Disk, PlaneCrossing};
 pub use find::Seen;
-pub use world::worldline::{Motion, Pose, Sway, Worldline};
+pub use world::worldline::{BodyMotion, Pose, Sway, Worldline};
 pub use world::{Thing, World};
 
 use super::bvh::order::squares;
 use super::trace::{Hit, PixelCamera};
-use shade::{Shift, Surface, detail, shaded, texel};
-use sky::{Background, SPOT_SIGMA, Spot};
+use shade::{LightShift, Surface, detail, shaded, texel};
+use sky::{SPOT_SIGMA, SkyBackground, Spot};
 use texture::Pyramid;
 
 /// The parts of a scene that are not bodies.
-pub struct Surroundings<'a> {
+pub struct Environment<'a> {
     /// The Milky Way.
-    pub background: &'a Background,
+    pub background: &'a SkyBackground,
     /// The stars' spots on this picture.
     pub stars: &'a [Spot],
     /// The accretion disk.
     pub disk: Option<&'a Disk>,
     /// How light changes on its way.
-    pub shift: Shift,
+    pub shift: LightShift,
 }
 
 /// How exactly a picture is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Quality {
+pub struct Sampling {
     /// Samples along each side of a pixel: n² rays in all.
     pub samples: u32,
     /// Local error of each step of a ray.
@@ -82,7 +82,7 @@ pub struct Layer {
 
 /// A picture in linear light, with what its pixels show.
 #[derive(Clone, Debug)]
-pub struct Picture {
+pub struct TracedPicture {
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Linear RGB.
@@ -101,7 +101,7 @@ pub struct Picture {
     pub missing: u64,
 }
 
-impl Picture {
+impl TracedPicture {
     /// What was given up, in words; None if that is nothing.
     pub fn given_up_in_words(&self) -> Option<String> {
         let rays = if self.given_up == 1 { "1 ray was".into() } else { format!("{} rays were", self.given_up) };
@@ -115,10 +115,10 @@ const BAND: u32 = 8;
 
 /// One ray: what it shows at its end, through the disk.
 #[derive(Clone, Copy)]
-struct RaySample {
+struct PixelSample {
     end: Ending,
     /// The light of the disk in front.
-    veil: Vec3,
+    foreground: Vec3,
     /// The part of what is behind that comes through the disk.
     through: f32,
 }
@@ -132,10 +132,16 @@ enum Ending {
 }
 
 /// Traces the picture that `camera` sees. `done` is told how many pixels have been finished, again and again.
-pub fn picture(world: &World, setting: &Surroundings, camera: &PixelCamera, quality: &Quality, done: &(dyn Fn(u64) + Sync)) -> Picture {
+pub fn picture(
+    world: &World,
+    environment: &Environment,
+    camera: &PixelCamera,
+    sampling: &Sampling,
+    done: &(dyn Fn(u64) + Sync),
+) -> TracedPicture {
     let [width, height] = camera.size;
     let given_up = world.given_up();
-    let painter = Painter { world, setting, camera, quality, pyramids: pyramids(world) };
+    let painter = Painter { world, environment, camera, sampling, pyramids: pyramids(world) };
     let bands: Vec<Band> = (0..height.div_ceil(BAND))
         .into_par_iter()
         .map(|band| {
@@ -148,7 +154,7 @@ pub fn picture(world: &World, setting: &Surroundings, camera: &PixelCamera, qual
         })
         .collect();
     let count = (width * height) as usize;
-    let mut picture = Picture {
+    let mut picture = TracedPicture {
         size: camera.size,
         light: Vec::with_capacity(count),
         layers: Vec::with_capacity(count),
@@ -165,14 +171,14 @@ pub fn picture(world: &World, setting: &Surroundings, camera: &PixelCamera, qual
         picture.open.extend(band.open);
         picture.dark.extend(band.dark);
     }
-    for spot in setting.stars {
+    for spot in environment.stars {
         draw_spot(&mut picture, spot);
     }
     picture
 }
 
 /// Adds a star's light to the pixels around it, as far as nothing solid covers them.
-fn draw_spot(picture: &mut Picture, spot: &Spot) {
+fn draw_spot(picture: &mut TracedPicture, spot: &Spot) {
     let [width, height] = picture.size.map(i64::from);
     let [x, y] = spot.place;
     for row in (y - 2.5).ceil() as i64..=(y + 2.5).floor() as i64 {
@@ -202,9 +208,9 @@ fn pyramids(world: &World) -> HashMap<usize, Pyramid> {
 
 struct Painter<'a> {
     world: &'a World<'a>,
-    setting: &'a Surroundings<'a>,
+    environment: &'a Environment<'a>,
     camera: &'a PixelCamera,
-    quality: &'a Quality,
+    sampling: &'a Sampling,
     pyramids: HashMap<usize, Pyramid>,
 }
 
@@ -246,7 +252,7 @@ impl Band {
 
 impl Painter<'_> {
     fn band(&self, first: u32, end: u32) -> Band {
-        let n = self.quality.samples;
+        let n = self.sampling.samples;
         let width = self.camera.size[0];
         let (columns, rows) = ((width * n) as usize, ((end - first) * n) as usize);
         let part = 1.0 / f64::from(n);
@@ -274,7 +280,7 @@ impl Painter<'_> {
 
     /// Adds the mean of a pixel's samples to a band, and what they have met.
     fn add_pixel(&self, band: &mut Band, grid: &Grid, [x, y]: [usize; 2]) {
-        let n = self.quality.samples as usize;
+        let n = self.sampling.samples as usize;
         let weight = 1.0 / (n * n) as f32;
         let mut light = Vec3::ZERO;
         let mut open = 0.0;
@@ -283,7 +289,7 @@ impl Painter<'_> {
         for k in 0..n * n {
             let (row, column) = (y * n + k / n, x * n + k % n);
             let sample = grid.at(row, column);
-            light += (sample.veil + self.colour(grid, row, column) * sample.through) * weight;
+            light += (sample.foreground + self.colour(grid, row, column) * sample.through) * weight;
             dark &= matches!(sample.end, Ending::Dark) && sample.through == 1.0;
             match &sample.end {
                 Ending::Surface { hit, .. } => {
@@ -304,53 +310,53 @@ impl Painter<'_> {
     }
 
     /// The rays of a band, `place` giving the place of each on the screen.
-    fn samples(&self, columns: usize, rows: usize, place: &dyn Fn(usize) -> [f64; 2]) -> Vec<RaySample> {
-        let packet = self.quality.packet as usize;
+    fn samples(&self, columns: usize, rows: usize, place: &dyn Fn(usize) -> [f64; 2]) -> Vec<PixelSample> {
+        let packet = self.sampling.packet as usize;
         if packet <= 1 {
             return (0..columns * rows).map(place).map(|[x, y]| self.sample(x, y)).collect();
         }
-        let blank = RaySample { end: Ending::Dark, veil: Vec3::ZERO, through: 1.0 };
+        let blank = PixelSample { end: Ending::Dark, foreground: Vec3::ZERO, through: 1.0 };
         let mut samples = vec![blank; columns * rows];
         let (order, starts) = squares([columns, rows], packet);
         for tile in starts.windows(2).map(|ends| &order[ends[0]..ends[1]]) {
             let rays: Vec<(DVec3, f64)> = tile.iter().map(|&index| place(index as usize)).map(|[x, y]| self.camera.look(x, y)).collect();
             let looks: Vec<DVec3> = rays.iter().map(|ray| ray.0).collect();
-            let mut veils = vec![(Vec3::ZERO, 1.0); tile.len()];
-            let seen = self.world.look_together(self.camera.observer.position, &looks, self.quality.tolerance, &mut |ray, crossing| {
-                self.dim(&mut veils[ray], &crossing, rays[ray].1);
+            let mut foregrounds = vec![(Vec3::ZERO, 1.0); tile.len()];
+            let seen = self.world.look_together(self.camera.observer.position, &looks, self.sampling.tolerance, &mut |ray, crossing| {
+                self.dim(&mut foregrounds[ray], &crossing, rays[ray].1);
             });
             for (k, &index) in tile.iter().enumerate() {
-                samples[index as usize] = self.ended(seen[k], veils[k], rays[k].1);
+                samples[index as usize] = self.ended(seen[k], foregrounds[k], rays[k].1);
             }
         }
         samples
     }
 
-    fn sample(&self, x: f64, y: f64) -> RaySample {
+    fn sample(&self, x: f64, y: f64) -> PixelSample {
         let (look, blue) = self.camera.look(x, y);
-        let mut veil = (Vec3::ZERO, 1.0);
-        let seen = self.world.look_through(self.camera.observer.position, look, self.quality.tolerance, &mut |crossing| {
-            self.dim(&mut veil, &crossing, blue)
+        let mut foreground = (Vec3::ZERO, 1.0);
+        let seen = self.world.look_through(self.camera.observer.position, look, self.sampling.tolerance, &mut |crossing| {
+            self.dim(&mut foreground, &crossing, blue)
         });
-        self.ended(seen, veil, blue)
+        self.ended(seen, foreground, blue)
     }
 
     /// What the disk adds to the light in front, and takes from what comes through.
-    fn dim(&self, (light, through): &mut (Vec3, f32), crossing: &Crossing, blue: f64) {
-        if let Some(disk) = self.setting.disk {
-            let (added, opacity) = disk.light(crossing, blue, self.world.time, self.setting.shift);
+    fn dim(&self, (light, through): &mut (Vec3, f32), crossing: &PlaneCrossing, blue: f64) {
+        if let Some(disk) = self.environment.disk {
+            let (added, opacity) = disk.light(crossing, blue, self.world.time, self.environment.shift);
             *light += added * *through;
             *through *= 1.0 - opacity;
         }
     }
 
-    fn ended(&self, seen: Seen, (veil, through): (Vec3, f32), blue: f64) -> RaySample {
+    fn ended(&self, seen: Seen, (foreground, through): (Vec3, f32), blue: f64) -> PixelSample {
         let end = match seen {
             Seen::Captured => Ending::Dark,
             Seen::Sky { direction, energy, .. } => Ending::Sky { direction, g: blue / energy },
             Seen::Hit(hit) => Ending::Surface { hit, surface: self.world.surface(&hit, blue) },
         };
-        RaySample { end, veil, through }
+        PixelSample { end, foreground, through }
     }
 
     /// The light of what a ray ends at.
@@ -362,7 +368,7 @@ impl Painter<'_> {
                     Ending::Sky { direction: other, .. } => Some(direction.angle_between(other)),
                     _ => None,
                 });
-                self.setting.background.light(direction, size[0].max(size[1]), g, self.setting.shift)
+                self.environment.background.light(direction, size[0].max(size[1]), g, self.environment.shift)
             }
             Ending::Surface { hit, surface } => {
                 let thing = &self.world.things[hit.object];
@@ -375,12 +381,12 @@ impl Painter<'_> {
                     _ => None,
                 });
                 let detail = detail(Vec2::X * across as f32, Vec2::X * down as f32);
-                shaded(&surface, thing, material, texel(pyramid, surface.uv, detail), self.setting.shift)
+                shaded(&surface, thing, material, texel(pyramid, surface.uv, detail), self.environment.shift)
             }
         }
     }
 
-    fn layer(&self, sample: &RaySample) -> Layer {
+    fn layer(&self, sample: &PixelSample) -> Layer {
         let Ending::Surface { hit, surface } = &sample.end else { return Layer::default() };
         Layer {
             object: self.world.things[hit.object].id,
@@ -397,20 +403,20 @@ impl Painter<'_> {
 
 /// Samples of a band, row by row.
 struct Grid<'a> {
-    samples: &'a [RaySample],
+    samples: &'a [PixelSample],
     columns: usize,
     rows: usize,
 }
 
 impl Grid<'_> {
-    fn at(&self, row: usize, column: usize) -> &RaySample {
+    fn at(&self, row: usize, column: usize) -> &PixelSample {
         &self.samples[row * self.columns + column]
     }
 
     /// How much something changes from a sample to its neighbour, across and down: the lesser of the changes to the two sides, as one of
     /// them may lie beyond an edge; 0 where `measure` finds no likeness on either.
-    fn change(&self, row: usize, column: usize, measure: impl Fn(&RaySample) -> Option<f64>) -> [f64; 2] {
-        let least = |sides: [Option<&RaySample>; 2]| {
+    fn change(&self, row: usize, column: usize, measure: impl Fn(&PixelSample) -> Option<f64>) -> [f64; 2] {
+        let least = |sides: [Option<&PixelSample>; 2]| {
             let least = sides.into_iter().flatten().filter_map(&measure).fold(f64::INFINITY, f64::min);
             if least.is_finite() { least } else { 0.0 }
         };

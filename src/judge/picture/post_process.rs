@@ -6,7 +6,7 @@ use crate::scene::model::texture::encode_srgb;
 
 /// How a picture is finished.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PostProcess {
+pub struct PostProcessSettings {
     /// Share of the light that the lens spreads.
     pub bloom: f32,
     /// The light that the metered part of the picture is brought to, of 1 for white.
@@ -64,7 +64,7 @@ impl Canvas {
 }
 
 /// Turns linear light of `size` pixels into sRGB, 3 bytes a pixel.
-pub fn post_process(light: &[[f32; 3]], size: [u32; 2], how: &PostProcess) -> Vec<u8> {
+pub fn post_process(light: &[[f32; 3]], size: [u32; 2], how: &PostProcessSettings) -> Vec<u8> {
     let size = size.map(|side| side as usize);
     let picture = Canvas { size, light: light.iter().map(|&rgb| Vec3::from(rgb)).collect() };
     let mut levels: Vec<Canvas> = Vec::new();
@@ -100,7 +100,7 @@ pub fn post_process(light: &[[f32; 3]], size: [u32; 2], how: &PostProcess) -> Ve
 
 /// What brings the mean light, weighted by itself (what shines is metered, not the black between), to the key. It is read off the two
 /// levels between whose widths `METERED_WIDTH` lies, as a level of just that width would have it.
-fn exposure(levels: &[Canvas], how: &PostProcess) -> f32 {
+fn exposure(levels: &[Canvas], how: &PostProcessSettings) -> f32 {
     let width = |level: usize| levels[level].size[0] as f32;
     let finer = (0..levels.len()).rev().find(|level| width(*level) >= METERED_WIDTH).unwrap_or(0);
     let octaves = (width(finer) / METERED_WIDTH).log2().clamp(0.0, 1.0);

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec2, Vec3};
 
 use super::texture::Pyramid;
-use super::world::worldline::Motion;
+use super::world::worldline::BodyMotion;
 use super::world::{Thing, World};
 use crate::judge::trace::Hit;
 use crate::scene::blackbody::blackbody_rgb;
@@ -30,7 +30,7 @@ pub struct Surface {
 
 /// What changes light on its way.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shift {
+pub struct LightShift {
     /// Light changes its colour with g.
     pub doppler: bool,
     /// Light changes its strength with g.
@@ -54,8 +54,8 @@ impl World<'_> {
             normal += DVec3::from(corner.normal.map(f64::from)) * exact;
         }
         let (momentum, attitude) = match thing.motion {
-            Motion::Held { attitude, .. } => (if self.hole { held_momentum(hit.position) } else { DVec3::ZERO }, attitude),
-            Motion::Flying(line) => {
+            BodyMotion::Static { attitude, .. } => (if self.hole { static_body_momentum(hit.position) } else { DVec3::ZERO }, attitude),
+            BodyMotion::Flying(line) => {
                 let pose = line.at(self.time - hit.delay);
                 (pose.momentum, pose.attitude)
             }
@@ -74,14 +74,14 @@ impl World<'_> {
 }
 
 /// γβ outward: the rain-frame momentum of an observer at rest at `position`, who must be outside r = 1.
-fn held_momentum(position: DVec3) -> DVec3 {
-    // Rounding must not take it to r = 1 or below, where nothing is held.
+fn static_body_momentum(position: DVec3) -> DVec3 {
+    // Rounding must not take it to r = 1 or below, where nothing is static.
     let r = position.length().max(1.0 + 1e-12);
     position * (river_speed(r) / (r * (1.0 - 1.0 / r).sqrt()))
 }
 
 /// The light of a surface, linear RGB; `texel` is its texture there.
-pub fn shaded(surface: &Surface, thing: &Thing, material: &Material, texel: Option<Vec3>, shift: Shift) -> Vec3 {
+pub fn shaded(surface: &Surface, thing: &Thing, material: &Material, texel: Option<Vec3>, shift: LightShift) -> Vec3 {
     let [r, g, b, _] = material.base_colour;
     let texel = texel.unwrap_or(Vec3::ONE);
     let base = Vec3::new(r, g, b) * texel;
@@ -108,7 +108,7 @@ pub fn shaded(surface: &Surface, thing: &Thing, material: &Material, texel: Opti
 
 /// Light of a black body of `temperature` (K) seen at frequency ratio g: by Planck's law and Liouville's theorem that of one at gT, each of
 /// which `black_body` knows. Where light does not change its colour, or its strength, that is as at rest.
-pub fn black_body_seen(black_body: impl Fn(f64) -> Vec3, temperature: f64, g: f64, shift: Shift) -> Vec3 {
+pub fn black_body_seen(black_body: impl Fn(f64) -> Vec3, temperature: f64, g: f64, shift: LightShift) -> Vec3 {
     let luminance = |rgb: Vec3| rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722)).max(1e-30);
     let (rest, shifted) = (black_body(temperature), black_body(temperature * g));
     match (shift.doppler, shift.beaming) {
@@ -156,7 +156,7 @@ const LN_BLUE: f32 = 6.13988;
 const SPECTRUM_FALL: f32 = 0.5;
 
 /// Light of a surface that is not a black body, seen at frequency ratio g: `shifted_colour` of gpu/colour.wgsl.
-pub fn shifted_colour(rgb: Vec3, g: f32, shift: Shift) -> Vec3 {
+pub fn shifted_colour(rgb: Vec3, g: f32, shift: LightShift) -> Vec3 {
     let mut colour = rgb;
     if shift.doppler {
         let shift = g.ln();

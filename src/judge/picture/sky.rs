@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::shade::{Shift, shifted_colour};
+use super::shade::{LightShift, shifted_colour};
 use super::texture::{Level, Pyramid};
 use crate::judge::ray::{RayFollower, Stop, sky_radius};
 use crate::judge::trace::PixelCamera;
@@ -16,25 +16,25 @@ use crate::spacetime::metric::{CRITICAL_IMPACT, river_speed};
 
 /// The Milky Way as linear light.
 #[derive(Clone, Debug)]
-pub struct Background {
+pub struct SkyBackground {
     light: Pyramid,
     /// The factor on it, in the scene's unit; 0 where it is switched off.
     pub brightness: f32,
 }
 
-impl Background {
+impl SkyBackground {
     /// From the picture, with `brightness` as a factor.
-    pub fn new(milky_way: &MilkyWay, brightness: f32) -> Background {
+    pub fn new(milky_way: &MilkyWay, brightness: f32) -> SkyBackground {
         let levels = milky_way
             .levels
             .iter()
             .map(|level| Level { width: level.width, height: level.height, pixels: level.light().into_iter().map(Vec3::from).collect() })
             .collect();
-        Background { light: Pyramid { levels, wrap_v: false }, brightness: brightness * SKY_UNIT * milky_way::PEAK }
+        SkyBackground { light: Pyramid { levels, wrap_v: false }, brightness: brightness * SKY_UNIT * milky_way::PEAK }
     }
 
     /// The light from `direction`, seen at ν_observed/ν_infinity = `g` by a sample that covers `size` radians of the sky.
-    pub fn light(&self, direction: DVec3, size: f64, g: f64, shift: Shift) -> Vec3 {
+    pub fn light(&self, direction: DVec3, size: f64, g: f64, shift: LightShift) -> Vec3 {
         if self.brightness == 0.0 {
             return Vec3::ZERO;
         }
@@ -133,7 +133,7 @@ fn shadow_angle(r: f64) -> f64 {
 }
 
 /// Where the camera sees each star, in the first two orders, and how bright. `brightness` is the factor on the catalogue.
-pub fn stars(catalogue: &[Star], camera: &PixelCamera, hole: bool, tolerance: f64, brightness: f64, shift: Shift) -> Vec<Spot> {
+pub fn stars(catalogue: &[Star], camera: &PixelCamera, hole: bool, tolerance: f64, brightness: f64, shift: LightShift) -> Vec<Spot> {
     let radius = camera.observer.position.length();
     let n = camera.observer.position / radius;
     let sweep = Sweep::new(radius, hole, tolerance);

@@ -1,6 +1,6 @@
 //! The closed form of `spacetime::light`.
 
-use super::{Method, Projector, Query, Sight, sight};
+use super::{Method, ProjectionInput, Projector, Sight, sight};
 use crate::spacetime::light::{self, Branch, Order};
 
 /// The method.
@@ -19,10 +19,10 @@ pub const METHOD: Method = Method {
 pub struct Exact;
 
 impl Projector for Exact {
-    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
-        let (u_point, u_camera) = (1.0 / query.r, 1.0 / query.camera);
+    fn project(&self, input: ProjectionInput, order: Order, branch: Branch) -> Option<Sight> {
+        let (u_point, u_camera) = (1.0 / input.r, 1.0 / input.camera);
         let branch = if u_point > 1.0 && u_camera > 1.0 { branch } else { Branch::Plus };
-        let ray = light::connect(u_point, order.swept(query.phi), u_camera, branch)?;
+        let ray = light::connect(u_point, order.swept(input.phi), u_camera, branch)?;
         Some(sight(ray.slope, ray.energy, ray.delay, u_camera))
     }
 }

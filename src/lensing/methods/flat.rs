@@ -1,6 +1,6 @@
 //! No hole.
 
-use super::{Method, Projector, Query, Sight};
+use super::{Method, ProjectionInput, Projector, Sight};
 use crate::spacetime::light::{Branch, Order};
 
 /// The method.
@@ -19,11 +19,11 @@ pub const METHOD: Method = Method {
 pub struct Flat;
 
 impl Projector for Flat {
-    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
+    fn project(&self, input: ProjectionInput, order: Order, branch: Branch) -> Option<Sight> {
         if order.number() != 1 || branch != Branch::Plus {
             return None;
         }
-        let Query { r, phi, camera: l } = query;
+        let ProjectionInput { r, phi, camera: l } = input;
         let half = (0.5 * phi).sin();
         let along = (r - l) - 2.0 * r * half * half;
         let across = r * phi.sin();

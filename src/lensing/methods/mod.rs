@@ -17,7 +17,7 @@ pub use table::Table;
 
 /// A point and a camera, r_s = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Query {
+pub struct ProjectionInput {
     /// The point's radius.
     pub r: f64,
     /// The angle at the hole between camera and point, radians, in (0, π).
@@ -48,7 +48,7 @@ impl Sight {
 #[derive(Clone, Copy, Debug)]
 pub struct Vertex {
     /// r, φ, L.
-    pub query: Query,
+    pub input: ProjectionInput,
     /// r cos φ − L.
     pub along: f32,
     /// r sin φ.
@@ -57,13 +57,13 @@ pub struct Vertex {
     pub height: f32,
 }
 
-impl From<Query> for Vertex {
-    fn from(query: Query) -> Self {
-        let Query { r, phi, camera } = query;
+impl From<ProjectionInput> for Vertex {
+    fn from(input: ProjectionInput) -> Self {
+        let ProjectionInput { r, phi, camera } = input;
         let half = (0.5 * phi).sin();
         // r cos φ − L in a form that keeps its digits near the camera.
         let along = (r - camera) - 2.0 * r * half * half;
-        Vertex { query, along: along as f32, across: (r * phi.sin()) as f32, height: (r * phi.cos()) as f32 }
+        Vertex { input, along: along as f32, across: (r * phi.sin()) as f32, height: (r * phi.cos()) as f32 }
     }
 }
 
@@ -71,7 +71,7 @@ impl From<Query> for Vertex {
 pub trait Projector: Sync {
     /// How the image of order `order` is seen, or None where the method has no answer. The branch matters only where camera and point
     /// are both inside the horizon.
-    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight>;
+    fn project(&self, input: ProjectionInput, order: Order, branch: Branch) -> Option<Sight>;
 }
 
 /// ψ in the rain frame of what a static camera at the radius `l` > 1 sees at `psi`: aberration by β = 1/√l, written with half angles so

@@ -1,6 +1,6 @@
 //! The tables of Yamashita 2012.
 
-use super::{Method, Projector, Query, Sight};
+use super::{Method, ProjectionInput, Projector, Sight};
 use crate::lensing::{Scheme, Table, paper, paper_format};
 use crate::spacetime::light::{Branch, Order};
 
@@ -22,15 +22,15 @@ const NODES: usize = 128;
 pub struct Paper(pub Table);
 
 /// Whether they reach so far.
-pub fn answers(query: Query, order: Order) -> bool {
+pub fn answers(input: ProjectionInput, order: Order) -> bool {
     let [l_low, l_high, r_low, r_high, ..] = paper_format::RANGES;
-    order.number() <= 2 && (l_low..=l_high).contains(&query.camera) && (r_low..=r_high).contains(&query.r)
+    order.number() <= 2 && (l_low..=l_high).contains(&input.camera) && (r_low..=r_high).contains(&input.r)
 }
 
 impl Projector for Paper {
-    fn project(&self, query: Query, order: Order, _branch: Branch) -> Option<Sight> {
-        let Query { r, phi, camera } = query;
-        answers(query, order).then(|| {
+    fn project(&self, input: ProjectionInput, order: Order, _branch: Branch) -> Option<Sight> {
+        let ProjectionInput { r, phi, camera } = input;
+        answers(input, order).then(|| {
             let [psi, delay] = paper::lookup(&self.0, [r, phi, camera], order.number());
             Sight::from_static(psi, delay, camera)
         })

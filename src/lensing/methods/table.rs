@@ -1,6 +1,6 @@
 //! The residual table as the game uses it: sliced once a frame, looked up in f32.
 
-use super::{Method, Projector, Query, Sight, Vertex};
+use super::{Method, ProjectionInput, Projector, Sight, Vertex};
 use crate::lensing::lookup::{OLD, YOUNG, lens_lookup_aged};
 use crate::lensing::{self, LensRay, SMALL_NODES, Scheme, Slice};
 use crate::spacetime::light::{self, Branch, Order};
@@ -21,9 +21,9 @@ pub const METHOD: Method = Method {
 pub struct Table(pub lensing::Table);
 
 /// Whether the tables reach so far.
-pub fn in_range(query: Query) -> bool {
+pub fn in_range(input: ProjectionInput) -> bool {
     let [low, high] = lensing::table::grid::CAMERA_RANGE;
-    (low..=high).contains(&query.camera) && 1.0 / query.r >= lensing::double::POINT_RANGE[0]
+    (low..=high).contains(&input.camera) && 1.0 / input.r >= lensing::double::POINT_RANGE[0]
 }
 
 /// One point in a slice.
@@ -33,19 +33,19 @@ pub fn look_up(slice: &Slice, point: &Vertex, order: Order, branch: Branch) -> L
 }
 
 /// What the f32 lookup found; None if nothing.
-pub fn seen(ray: &LensRay, query: Query) -> Option<Sight> {
+pub fn seen(ray: &LensRay, input: ProjectionInput) -> Option<Sight> {
     ray.valid.then(|| Sight {
         psi_rain: f64::from(ray.sin_psi).atan2(f64::from(ray.cos_psi)),
-        psi_static: light::static_angle(f64::from(ray.slope), f64::from(ray.energy), 1.0 / query.camera),
+        psi_static: light::static_angle(f64::from(ray.slope), f64::from(ray.energy), 1.0 / input.camera),
         delay: f64::from(ray.delay),
     })
 }
 
 impl Projector for Table {
-    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
-        if !in_range(query) {
+    fn project(&self, input: ProjectionInput, order: Order, branch: Branch) -> Option<Sight> {
+        if !in_range(input) {
             return None;
         }
-        seen(&look_up(&Slice::new(&self.0, query.camera), &query.into(), order, branch), query)
+        seen(&look_up(&Slice::new(&self.0, input.camera), &input.into(), order, branch), input)
     }
 }

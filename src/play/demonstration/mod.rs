@@ -20,7 +20,7 @@ use crate::render::settings::greatest_rise;
 use crate::render::shot::surroundings;
 use crate::render::stage::{Stage, settings};
 use crate::render::{Gpu, Renderer};
-use crate::scene::crew::Crew;
+use crate::scene::pilot_kind::PilotKind;
 use crate::sim::bolts::Bolts;
 use crate::sim::replay::Replay;
 use crate::sim::snapshot::{FrameCamera, Snapshot, step_after};
@@ -29,7 +29,7 @@ use crate::sim::{app_of, board};
 use crate::user_file::write_whole;
 
 use crate::play::camera::director::{Cast, Director};
-use crate::play::demonstration::sheet::Sheet;
+use crate::play::demonstration::sheet::ContactSheet;
 use crate::play::session::Session;
 use crate::play::sound::file::SoundFileError;
 use crate::play::sound::record::Recorder;
@@ -53,8 +53,8 @@ pub struct DemonstrationRequest {
     /// Where they go.
     pub folder: PathBuf,
     /// Who flies the player's ship.
-    pub crew: Crew,
-    /// The flight that is shown; without it that of the crew.
+    pub pilot: PilotKind,
+    /// The flight that is shown; without it that of the pilot.
     pub replay: Option<Replay>,
     /// The WAV file of its sound, if one is wanted.
     pub sound: Option<PathBuf>,
@@ -122,7 +122,7 @@ impl std::fmt::Display for Report {
 /// Plays the chase without graphics, then draws it.
 pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Result<Report, FlightError> {
     let mut recorder = flight.sound.is_some().then(|| Recorder::new(session));
-    let (world, span, end) = play(session, flight.crew, flight.replay.as_ref(), recorder.as_mut());
+    let (world, span, end) = play(session, flight.pilot, flight.replay.as_ref(), recorder.as_mut());
     // Before the pictures, which take longer, so that what cannot be written is said soon.
     let sound = recorder.zip(flight.sound.as_ref()).map(|(recorder, path)| recorder.write(path, span[0])).transpose()?;
     let names: Vec<Entity> = world.world().resource::<Fleet>().0.clone();
@@ -142,7 +142,7 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Resul
     settings.own_ship = Some(session.player());
     settings.engines = Some([session.config.ship.thrust, session.config.enemy.thrust]);
     let mut director = Director::default();
-    let own = || Replay::begin(&session.scene, &session.config, session.difficulty, flight.crew, session.seed);
+    let own = || Replay::begin(&session.scene, &session.config, session.difficulty, flight.pilot, session.seed);
     let shown = flight.replay.clone().unwrap_or_else(own);
     let step = world.world().resource::<Clock>().step;
 
@@ -191,9 +191,9 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Resul
 
 /// Plays the chase and writes its sound alone: neither pictures nor a GPU. From what T to what T it goes (r_s/c), how it ended, and the
 /// length of the sound in seconds.
-pub fn sound(session: &Session, crew: Crew, replay: Option<&Replay>, path: &Path) -> Result<([f64; 2], String, f64), SoundFileError> {
+pub fn sound(session: &Session, pilot: PilotKind, replay: Option<&Replay>, path: &Path) -> Result<([f64; 2], String, f64), SoundFileError> {
     let mut recorder = Recorder::new(session);
-    let (_, span, end) = play(session, crew, replay, Some(&mut recorder));
+    let (_, span, end) = play(session, pilot, replay, Some(&mut recorder));
     Ok((span, end, recorder.write(path, span[0])?))
 }
 
@@ -228,13 +228,13 @@ pub fn progress(what: &str, frames: u32) -> ProgressBar {
 }
 
 /// Plays the chase to its end, with somebody who listens; the app, the span to show, and how it ended.
-fn play(session: &Session, crew: Crew, replay: Option<&Replay>, mut recorder: Option<&mut Recorder>) -> (App, [f64; 2], String) {
+fn play(session: &Session, pilot: PilotKind, replay: Option<&Replay>, mut recorder: Option<&mut Recorder>) -> (App, [f64; 2], String) {
     let config = session.effective();
     let mut app = match replay {
         Some(replay) => replay.app(&session.scene, &session.config),
         None => {
             let mut app = app_of(&session.scene, &config, session.seed);
-            board(app.world_mut(), crew);
+            board(app.world_mut(), pilot);
             app
         }
     };
@@ -281,8 +281,8 @@ impl Writer {
         // Few frames wait, so that memory stays small if the disk is slow.
         let (queue, pictures) = sync_channel::<(u32, Vec<u8>, Snapshot)>(8);
         let thread = std::thread::spawn(move || {
-            let mut sheet = Sheet::new(size, frames);
-            let chosen = Sheet::chosen(frames);
+            let mut sheet = ContactSheet::new(size, frames);
+            let chosen = ContactSheet::chosen(frames);
             for (index, rgba, snapshot) in pictures {
                 for (place, _) in chosen.iter().enumerate().filter(|(_, frame)| **frame == index) {
                     sheet.put(place as u32, size, &rgba);

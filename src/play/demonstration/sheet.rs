@@ -5,7 +5,7 @@ pub const GRID: [u32; 2] = [4, 4];
 
 /// A sheet being filled with pictures of `frame` pixels, each brought down to half its size.
 #[derive(Clone, Debug)]
-pub struct Sheet {
+pub struct ContactSheet {
     grid: [u32; 2],
     cell: [u32; 2],
     pixels: Vec<u8>,
@@ -14,12 +14,12 @@ pub struct Sheet {
 /// The gap between pictures, in pixels.
 const GAP: u32 = 4;
 
-impl Sheet {
+impl ContactSheet {
     /// An empty sheet for the pictures that are chosen of `frames` of this size.
-    pub fn new(frame: [u32; 2], frames: u32) -> Sheet {
+    pub fn new(frame: [u32; 2], frames: u32) -> ContactSheet {
         let cell = frame.map(|side| (side / 2).max(1));
         let across = frames.clamp(1, GRID[0]);
-        let mut sheet = Sheet { grid: [across, frames.div_ceil(across).clamp(1, GRID[1])], cell, pixels: Vec::new() };
+        let mut sheet = ContactSheet { grid: [across, frames.div_ceil(across).clamp(1, GRID[1])], cell, pixels: Vec::new() };
         let [width, height] = sheet.size();
         sheet.pixels = vec![18; (width * height * 3) as usize];
         sheet
@@ -68,22 +68,22 @@ mod tests {
 
     #[test]
     fn first_and_last_frame_are_shown() {
-        let chosen = Sheet::chosen(240);
+        let chosen = ContactSheet::chosen(240);
         assert_eq!((chosen.len(), chosen[0], chosen[15]), (16, 0, 239));
-        assert_eq!(Sheet::chosen(3), [0, 1, 2]);
+        assert_eq!(ContactSheet::chosen(3), [0, 1, 2]);
     }
 
     #[test]
     fn few_pictures_make_a_small_sheet() {
         // Cells of 4 × 2 with gaps of 4.
-        assert_eq!(Sheet::new([8, 4], 3).size(), [3 * 8 + 4, 6 + 4]);
-        assert_eq!(Sheet::new([8, 4], 12).size(), [4 * 8 + 4, 3 * 6 + 4]);
-        assert_eq!(Sheet::new([8, 4], 1000).size(), [4 * 8 + 4, 4 * 6 + 4]);
+        assert_eq!(ContactSheet::new([8, 4], 3).size(), [3 * 8 + 4, 6 + 4]);
+        assert_eq!(ContactSheet::new([8, 4], 12).size(), [4 * 8 + 4, 3 * 6 + 4]);
+        assert_eq!(ContactSheet::new([8, 4], 1000).size(), [4 * 8 + 4, 4 * 6 + 4]);
     }
 
     #[test]
     fn a_picture_lands_in_its_place() {
-        let mut sheet = Sheet::new([8, 4], 16);
+        let mut sheet = ContactSheet::new([8, 4], 16);
         sheet.put(5, [8, 4], &[200; 8 * 4 * 4]);
         let [width, _] = sheet.size();
         let at = |x: u32, y: u32| sheet.pixels()[((y * width + x) * 3) as usize];

@@ -8,7 +8,7 @@ use crate::play::hud::paint::{ALARM, BAR_ROOM, FAINT, OWN, TEXT, TRUE, TextBox};
 use crate::play::hud::{BETWEEN, MARGIN};
 use crate::play::player_state::PlayerState;
 use crate::play::session::Session;
-use crate::scene::crew::Crew;
+use crate::scene::pilot_kind::PilotKind;
 
 /// Fuel is low below this share of a full tank.
 pub const LOW_FUEL: f64 = 0.15;
@@ -58,7 +58,7 @@ pub struct Going {
 type Line = (Density, String, f32, Color32);
 
 /// Lays out all dials in `rect`.
-pub fn lay(painter: &Painter, rect: Rect, session: &Session, player: &PlayerState, read: &Instruments, going: Going) -> Vec<TextBox> {
+pub fn lay_out(painter: &Painter, rect: Rect, session: &Session, player: &PlayerState, read: &Instruments, going: Going) -> Vec<TextBox> {
     let scale = Scale::of(session);
     let density = Density::of(&session.config.interface.hud, rect);
     let inner = rect.shrink(MARGIN);
@@ -67,7 +67,7 @@ pub fn lay(painter: &Painter, rect: Rect, session: &Session, player: &PlayerStat
         let lines: Vec<(&str, f32, Color32)> =
             lines.iter().filter(|line| line.0 <= density).map(|(_, words, size, colour)| (words.as_str(), *size, *colour)).collect();
         if !lines.is_empty() {
-            dials.push(TextBox::lay(painter, at, anchor, f32::INFINITY, &lines));
+            dials.push(TextBox::lay_out(painter, at, anchor, f32::INFINITY, &lines));
         }
     };
     add(inner.left_top(), Align2::LEFT_TOP, clocks(&scale, read));
@@ -161,7 +161,7 @@ fn state(
     let language = session.language();
     let pilot = language.say(match (going.replayed, player.autopilot, player.assisted(&session.config)) {
         (true, ..) => "hud-replay",
-        (_, true, _) if player.crew == Some(Crew::Hands) => "hud-hands",
+        (_, true, _) if player.pilot == Some(PilotKind::Hands) => "hud-hands",
         (_, true, _) => "hud-autopilot",
         (_, _, true) => "hud-assist",
         _ => "hud-free-flight",
@@ -185,5 +185,5 @@ fn state(
     let lines = [(Density::Reduced, format!("{pilot}  ·  {view}"), TEXT), (Density::Full, pace, TEXT), (Density::Least, tanks, colour)];
     let lines: Vec<(&str, f32, Color32)> =
         lines.iter().filter(|line| line.0 <= density).map(|(_, words, colour)| (words.as_str(), 12.0, *colour)).collect();
-    TextBox::lay(painter, at, Align2::LEFT_BOTTOM, f32::INFINITY, &lines).over_bar(read.fuel.unwrap_or(1.0) as f32, filled)
+    TextBox::lay_out(painter, at, Align2::LEFT_BOTTOM, f32::INFINITY, &lines).over_bar(read.fuel.unwrap_or(1.0) as f32, filled)
 }

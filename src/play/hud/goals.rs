@@ -42,7 +42,7 @@ pub struct Goals<'a> {
 }
 
 /// Lays out the present goal below `top`, `seconds` of wall time after the start of the game; nothing when all are done.
-pub fn lay(painter: &Painter, rect: Rect, top: f32, goals: &Goals, slow: &mut Slow, seconds: f64) -> Option<TextBox> {
+pub fn lay_out(painter: &Painter, rect: Rect, top: f32, goals: &Goals, slow: &mut Slow, seconds: f64) -> Option<TextBox> {
     let Goals { mission, progress, rules, scene, buttons } = *goals;
     let goal = mission.goals.get(progress.goal)?;
     if slow.goal != Some(progress.goal) {
@@ -67,7 +67,7 @@ pub fn lay(painter: &Painter, rect: Rect, top: f32, goals: &Goals, slow: &mut Sl
     let at = pos2(rect.center().x, top);
     let share = progress.share(mission, &rules);
     let widest = WIDEST.min(0.6 * rect.width());
-    Some(TextBox::lay(painter, at, Align2::CENTER_TOP, widest, &lines).over_bar(share as f32, OWN))
+    Some(TextBox::lay_out(painter, at, Align2::CENTER_TOP, widest, &lines).over_bar(share as f32, OWN))
 }
 
 /// Whether the present goal is a ship to be held, which is shown by a ring.

@@ -19,7 +19,7 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
 use crate::scene::GameConfig;
 use crate::sim::bolts::HIT_RADIUS;
-use crate::sim::hands::Avoiding;
+use crate::sim::player_commands::Avoiding;
 use crate::sim::replay::Playback;
 use crate::sim::{ActiveMission, Chase, ChaseRules, Progress};
 
@@ -32,7 +32,7 @@ use crate::play::input::bindings::Bindings;
 use crate::play::input::button::Device;
 use crate::play::menus::screens::Screen;
 use crate::play::pace::Slowing;
-use crate::play::picture::staging::Staged;
+use crate::play::picture::stage_loading::CurrentStage;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::{GameSet, PaintSet};
 use crate::play::session::Session;
@@ -54,7 +54,7 @@ impl Plugin for HudPlugin {
         app.init_resource::<Panel>()
             .init_resource::<Notice>()
             .init_resource::<Dials>()
-            .add_systems(Update, panel::read_panel.in_set(GameSet::Instruments).run_if(resource_exists::<Staged>))
+            .add_systems(Update, panel::read_panel.in_set(GameSet::Instruments).run_if(resource_exists::<CurrentStage>))
             .add_systems(EguiPrimaryContextPass, draw.in_set(PaintSet::Hud));
     }
 }
@@ -75,16 +75,16 @@ fn draw(
     (screen, session, player): (Res<State<Screen>>, Res<Session>, Res<PlayerState>),
     (chase, rules, avoiding): (Option<Res<Chase>>, Res<ChaseRules>, Res<Avoiding>),
     (panel, (bindings, device)): (Res<Panel>, Buttons),
-    (notice, real, staged): (Res<Notice>, Res<Time<Real>>, Option<Res<Staged>>),
+    (notice, real, current): (Res<Notice>, Res<Time<Real>>, Option<Res<CurrentStage>>),
     (mission, progress, playback): Flown,
     (slowing, mut slow, mut painted): (Res<Slowing>, Local<goals::Slow>, ResMut<Dials>),
 ) -> Result {
     let context = contexts.ctx_mut()?;
     let painter = context.layer_painter(egui::LayerId::background());
     let rect = context.content_rect();
-    lay_in(context, &painter);
+    preload_letters(context, &painter);
     let language = session.language();
-    if staged.is_none() {
+    if current.is_none() {
         // Off the menu of the title.
         let (at, align) = match screen.get() {
             Screen::Title => (rect.right_bottom() - vec2(MARGIN, MARGIN), Align2::RIGHT_BOTTOM),
@@ -92,11 +92,11 @@ fn draw(
         };
         text(&painter, at, align, &language.say("hud-loading"), 18.0, TEXT);
     }
-    let shown = staged.is_some() && shows(*screen.get(), player.hud_off);
+    let shown = current.is_some() && shows(*screen.get(), player.hud_off);
     let mut said = Vec::new();
     if let Some(words) = left_out(&session.config, language) {
         let at = pos2(rect.center().x, rect.bottom() - MARGIN);
-        let text_box = TextBox::lay(&painter, at, Align2::CENTER_BOTTOM, 0.5 * rect.width(), &[(&words, 12.0, TRUE)]);
+        let text_box = TextBox::lay_out(&painter, at, Align2::CENTER_BOTTOM, 0.5 * rect.width(), &[(&words, 12.0, TRUE)]);
         said.push(text_box.frame);
         text_box.paint(&painter);
     }
@@ -111,7 +111,7 @@ fn draw(
     }
     let mut taken = markers::Taken { panels: said, other: Vec::new() };
     let Some(read) = panel.instruments else { return Ok(()) };
-    let mut text_boxes = dials::lay(
+    let mut text_boxes = dials::lay_out(
         &painter,
         rect,
         &session,
@@ -137,7 +137,7 @@ fn draw(
         let seconds = real.elapsed_secs_f64();
         let scene = (language, &session.scene);
         let goals = goals::Goals { mission: &mission.0, progress, rules: ChaseRules(rules), scene, buttons: (&bindings, *device) };
-        text_boxes.extend(goals::lay(&painter, rect, below, &goals, &mut slow, seconds));
+        text_boxes.extend(goals::lay_out(&painter, rect, below, &goals, &mut slow, seconds));
     }
     if let Some(words) = says {
         let message = message(&front, rect, middle_bottom(&text_boxes, rect) + BETWEEN, words, notice.share);
@@ -146,7 +146,7 @@ fn draw(
     }
     if let Some(words) = extra(&panel, language) {
         let at = pos2(rect.right() - MARGIN, target_top(&text_boxes, rect) - BETWEEN);
-        text_boxes.push(TextBox::lay(&painter, at, Align2::RIGHT_BOTTOM, f32::INFINITY, &[(&words, 12.0, TEXT)]));
+        text_boxes.push(TextBox::lay_out(&painter, at, Align2::RIGHT_BOTTOM, f32::INFINITY, &[(&words, 12.0, TEXT)]));
     }
     painted.0 = text_boxes.iter().map(|text_box| text_box.frame).collect();
     taken.panels.extend(&painted.0);
@@ -169,7 +169,7 @@ fn shows(screen: Screen, hud_off: bool) -> bool {
 /// A line for the player, wrapped where it is wider than the screen.
 fn message(painter: &Painter, rect: Rect, top: f32, words: &str, share: Option<f64>) -> TextBox {
     let at = pos2(rect.center().x, top);
-    let text_box = TextBox::lay(painter, at, Align2::CENTER_TOP, rect.width() - 2.0 * MARGIN, &[(words, 14.0, TRUE)]);
+    let text_box = TextBox::lay_out(painter, at, Align2::CENTER_TOP, rect.width() - 2.0 * MARGIN, &[(words, 14.0, TRUE)]);
     match share {
         Some(share) => text_box.over_bar(share as f32, TRUE),
         None => text_box,
@@ -181,7 +181,7 @@ const SIZES: [f32; 9] = [11.0, 11.5, 12.0, 13.0, 14.0, 15.0, 18.0, 19.0, 26.0];
 
 /// Has every letter drawn to the fonts' texture before it is needed, one picture of each: the texture reaches the screen a frame after what
 /// is written with it, and a digit that is seen for the first time would be missing meanwhile.
-fn lay_in(context: &egui::Context, painter: &Painter) {
+fn preload_letters(context: &egui::Context, painter: &Painter) {
     if context.global_style().visuals.text_options.subpixel_binning {
         context.all_styles_mut(|style| style.visuals.text_options.subpixel_binning = false);
     }
@@ -250,7 +250,7 @@ fn countdown(painter: &Painter, rect: Rect, scale: &Scale, countdown: &Countdown
         (&format!("T = {:.1} / {} r_s/c", countdown.limit - countdown.left, countdown.limit), 12.0, FAINT),
     ];
     let top = pos2(rect.center().x, rect.top() + MARGIN);
-    TextBox::lay(painter, top, Align2::CENTER_TOP, f32::INFINITY, &lines).over_bar(countdown.share() as f32, filled)
+    TextBox::lay_out(painter, top, Align2::CENTER_TOP, f32::INFINITY, &lines).over_bar(countdown.share() as f32, filled)
 }
 
 /// What must not be missed, in large letters.
@@ -304,7 +304,7 @@ mod tests {
         let read = Instruments::read(&state, 399.0, 9.67, 0.06, (7.0, 7.0), Some(&ShipState::new(DVec3::X * -9.0, DVec3::ZERO)));
         for size in [[900.0, 620.0], [1103.0, 620.0], [1280.0, 720.0]] {
             on_canvas(size, |painter, rect| {
-                let mut text_boxes = dials::lay(
+                let mut text_boxes = dials::lay_out(
                     painter,
                     rect,
                     &session,

@@ -56,7 +56,7 @@ pub struct TextBox {
 
 impl TextBox {
     /// A text box whose `anchor` is at `at`; lines longer than `widest` are wrapped.
-    pub fn lay(painter: &Painter, at: Pos2, anchor: Align2, widest: f32, lines: &[(&str, f32, Color32)]) -> TextBox {
+    pub fn lay_out(painter: &Painter, at: Pos2, anchor: Align2, widest: f32, lines: &[(&str, f32, Color32)]) -> TextBox {
         let palette = Palette::in_use(painter.ctx());
         let galleys = lines.iter().map(|&(words, size, colour)| {
             let colour = palette.shown(colour);
@@ -146,9 +146,9 @@ pub(in crate::play) mod tests {
     fn a_long_line_is_wrapped() {
         let words = "a word and one more ".repeat(60);
         on_canvas([900.0, 620.0], |painter, rect| {
-            let lay = |widest| TextBox::lay(painter, rect.center(), Align2::CENTER_CENTER, widest, &[(&words, 14.0, TEXT)]).frame;
-            assert!(lay(f32::INFINITY).width() > rect.width());
-            let wrapped = lay(860.0);
+            let lay_out = |widest| TextBox::lay_out(painter, rect.center(), Align2::CENTER_CENTER, widest, &[(&words, 14.0, TEXT)]).frame;
+            assert!(lay_out(f32::INFINITY).width() > rect.width());
+            let wrapped = lay_out(860.0);
             assert!(wrapped.width() <= 860.0 && rect.contains_rect(wrapped), "{wrapped}");
         });
     }

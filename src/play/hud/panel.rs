@@ -13,7 +13,7 @@ use crate::play::player_state::PlayerState;
 use crate::scene::disk::Gas;
 use crate::scene::mission::GoalTask;
 use crate::sim::Outcome;
-use crate::sim::seeing::{Body, Pointer, Scenery, Sight, Track, pointers};
+use crate::sim::seeing::{Phenomenon, Pointer, Scenery, SeenBody, Track, pointers};
 use crate::sim::sight::{Apparition, apparition, direction, emission_time, frequency_ratio, true_direction};
 use crate::sim::snapshot::FrameCamera;
 use crate::spacetime::Observer;
@@ -138,22 +138,22 @@ fn pointed_at(now: &Now, camera: &Observer, aspect: f64) -> Vec<Pointer> {
     let config = session.effective();
     let gas = session.scene.disk(&config).map(|disk| Gas::new(&disk, config.hole.mass_solar));
     // A ship is seen as a ball of half its length.
-    let ball = |(ship, history)| Body { track: Track::Ship(history), radius: 0.5 * session.length(ship) };
+    let ball = |(ship, history)| SeenBody { track: Track::Ship(history), radius: 0.5 * session.length(ship) };
     let target = now.target().map(ball);
     let own = now.own().map(|(history, ..)| ball((session.player(), history)));
-    let others: Vec<Body> = own
+    let others: Vec<SeenBody> = own
         .into_iter()
-        .chain(session.scene.planet.iter().map(|planet| Body { track: Track::Planet(planet), radius: planet.radius }))
+        .chain(session.scene.planet.iter().map(|planet| SeenBody { track: Track::Planet(planet), radius: planet.radius }))
         .collect();
     let mut found = pointers(camera, now.time(), &Scenery { disk: gas.as_ref(), target, others: &others }, aspect);
     // What is switched off is not there to be named.
     let render = &config.render;
     found.retain(|pointer| match pointer.sight {
-        Sight::BlueSide | Sight::RedSide => render.doppler,
-        Sight::TrueTarget | Sight::TargetImage => render.light_delay,
-        Sight::SecondImage | Sight::EinsteinRing => render.light_delay && render.orders > 1,
-        Sight::DiskUnderside | Sight::PhotonRing => render.orders > 1,
-        Sight::Shadow | Sight::DiskFarSide | Sight::Aberration => true,
+        Phenomenon::BlueSide | Phenomenon::RedSide => render.doppler,
+        Phenomenon::TrueTarget | Phenomenon::TargetImage => render.light_delay,
+        Phenomenon::SecondImage | Phenomenon::EinsteinRing => render.light_delay && render.orders > 1,
+        Phenomenon::DiskUnderside | Phenomenon::PhotonRing => render.orders > 1,
+        Phenomenon::Shadow | Phenomenon::DiskFarSide | Phenomenon::Aberration => true,
     });
     found
 }

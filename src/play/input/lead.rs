@@ -1,4 +1,4 @@
-//! In a replay nobody flies: the hands lead the camera.
+//! In a replay nobody flies: the player's input leads the camera.
 
 use bevy::prelude::*;
 use glam::DVec2;

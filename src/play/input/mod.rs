@@ -259,7 +259,7 @@ pub(in crate::play) mod tests {
     }
 
     fn ask<T: 'static>(app: &mut App, question: impl Fn(&PlayerInput) -> T + Send + Sync + 'static) -> T {
-        app.world_mut().run_system_cached_with(move |_: In<()>, hands: PlayerInput| question(&hands), ()).expect("all resources are there")
+        app.world_mut().run_system_cached_with(move |_: In<()>, input: PlayerInput| question(&input), ()).expect("all resources are there")
     }
 
     /// The stick with these keys held.
@@ -267,7 +267,7 @@ pub(in crate::play) mod tests {
         let mut app = devices(config);
         keys.iter().for_each(|&key| press_key(&mut app, key, ButtonState::Pressed));
         app.update();
-        ask(&mut app, |hands| hands.stick())
+        ask(&mut app, |input| input.stick())
     }
 
     #[test]
@@ -286,7 +286,7 @@ pub(in crate::play) mod tests {
         config.controls.thrust_forward = "MouseLeft".into();
         let mut app = devices(&config);
         app.world_mut().resource_mut::<ButtonInput<MouseButton>>().press(MouseButton::Left);
-        assert_eq!(ask(&mut app, |hands| hands.stick()).thrust.z, -CRUISE);
+        assert_eq!(ask(&mut app, |input| input.stick()).thrust.z, -CRUISE);
     }
 
     #[test]
@@ -296,7 +296,7 @@ pub(in crate::play) mod tests {
         let thrust = |app: &mut App, value| {
             push_stick(app, pad, GamepadAxis::LeftStickY, value);
             app.update();
-            ask(app, |hands| hands.stick().thrust.z)
+            ask(app, |input| input.stick().thrust.z)
         };
         let half = thrust(&mut app, 0.5);
         assert!(half < 0.0 && half > -0.5, "{half}");
@@ -304,13 +304,13 @@ pub(in crate::play) mod tests {
         assert_eq!(thrust(&mut app, 0.08), 0.0, "the dead zone");
         push_stick(&mut app, pad, GamepadAxis::RightStickX, 1.0);
         app.update();
-        assert_eq!(ask(&mut app, |hands| hands.stick().turn), DVec3::NEG_Y, "to the right");
+        assert_eq!(ask(&mut app, |input| input.stick().turn), DVec3::NEG_Y, "to the right");
         assert_eq!(*app.world().resource::<Device>(), Device::Pad);
         press_pad(&mut app, pad, GamepadButton::RightTrigger2, 1.0);
         app.update();
-        assert!(ask(&mut app, |hands| hands.pushed(Action::Fire)));
+        assert!(ask(&mut app, |input| input.pushed(Action::Fire)));
         app.update();
-        assert!(ask(&mut app, |hands| hands.holds(Action::Fire) && !hands.pushed(Action::Fire)));
+        assert!(ask(&mut app, |input| input.holds(Action::Fire) && !input.pushed(Action::Fire)));
     }
 
     /// A stick that is bound to what a button does is pushed once from half of its way on, and held until it comes back.
@@ -323,7 +323,7 @@ pub(in crate::play) mod tests {
         let states = [0.4, 0.6, 0.9, 0.2, -1.0].map(|value| {
             push_stick(&mut app, pad, GamepadAxis::RightStickY, value);
             app.update();
-            ask(&mut app, |hands| [hands.pushed(Action::ToggleHud), hands.holds(Action::ToggleHud)])
+            ask(&mut app, |input| [input.pushed(Action::ToggleHud), input.holds(Action::ToggleHud)])
         });
         assert_eq!(states, [[false, false], [true, true], [false, true], [false, false], [false, false]]);
     }
@@ -338,7 +338,7 @@ pub(in crate::play) mod tests {
         let up = |app: &mut App| {
             push_stick(app, pad, GamepadAxis::RightStickY, 1.0);
             app.update();
-            ask(app, |hands| hands.stick().turn.x)
+            ask(app, |input| input.stick().turn.x)
         };
         // Pushed forward the nose goes down, inverted up.
         assert_eq!(up(&mut app), 0.5);
@@ -353,9 +353,9 @@ pub(in crate::play) mod tests {
         press_key(&mut app, KeyCode::F1, ButtonState::Pressed);
         press_key(&mut app, KeyCode::F1, ButtonState::Released);
         app.update();
-        assert!(ask(&mut app, |hands| hands.pushed(Action::WhatAmISeeing) && !hands.holds(Action::WhatAmISeeing)));
+        assert!(ask(&mut app, |input| input.pushed(Action::WhatAmISeeing) && !input.holds(Action::WhatAmISeeing)));
         app.update();
-        assert!(!ask(&mut app, |hands| hands.pushed(Action::WhatAmISeeing)));
+        assert!(!ask(&mut app, |input| input.pushed(Action::WhatAmISeeing)));
     }
 
     /// One tap thrusts, the next stops.
@@ -369,7 +369,7 @@ pub(in crate::play) mod tests {
                 press_key(app, key, state);
                 app.update();
             }
-            ask(app, |hands| hands.stick().thrust.z)
+            ask(app, |input| input.stick().thrust.z)
         };
         assert_eq!(tap(&mut app, KeyCode::KeyW), -CRUISE);
         assert_eq!(tap(&mut app, KeyCode::ShiftLeft), -1.0);

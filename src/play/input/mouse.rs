@@ -4,7 +4,7 @@ use bevy::prelude::*;
 use glam::{DQuat, DVec2, DVec3};
 
 use crate::scene::GameConfig;
-use crate::sim::{Engine, Hands};
+use crate::sim::{Engine, PlayerCommands};
 
 /// Turns asked for by the mouse: pitch (up) and yaw (left), in radians.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
@@ -56,7 +56,7 @@ impl MouseTurn {
         let left = self.waiting.length();
         self.flown = DVec2::ZERO;
         // Less than half a step of the stick in one step is none.
-        if span <= 0.0 || self.waiting.abs().max_element() < 0.5 / Hands::FULL * most * span {
+        if span <= 0.0 || self.waiting.abs().max_element() < 0.5 / PlayerCommands::FULL * most * span {
             (self.waiting, self.by_keys) = (DVec2::ZERO, None);
             return keys;
         }
@@ -64,9 +64,9 @@ impl MouseTurn {
         let steps = left / span;
         let rate = ((0.25 * gains * gains + 2.0 * gains * steps).sqrt() - 0.5 * gains).min(steps);
         let wanted = (self.waiting * (rate / (left * most))).clamp(DVec2::NEG_ONE, DVec2::ONE);
-        // In the steps that the hands are kept in.
+        // In the steps that commands are kept in.
         let stick = (keys + wanted.extend(0.0)).clamp(DVec3::NEG_ONE, DVec3::ONE);
-        let stick = (stick * Hands::FULL).round() / Hands::FULL;
+        let stick = (stick * PlayerCommands::FULL).round() / PlayerCommands::FULL;
         let by_keys = engine.turn(keys * most, self.by_keys.unwrap_or(turning), span);
         let by_mouse = (engine.turn(stick * most, turning, span) - by_keys).truncate() * span;
         // Where keys and mouse ask for more than a body turns, the mouse takes from the keys, and owes them nothing.

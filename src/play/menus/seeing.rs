@@ -12,7 +12,7 @@ use crate::play::menus::entries::Menu;
 use crate::play::menus::rows::rows;
 use crate::play::session::Session;
 use crate::play::words::Language;
-use crate::sim::seeing::{Pointer, Sight};
+use crate::sim::seeing::{Phenomenon, Pointer};
 
 /// Width of the switches, in points.
 const SWITCHES: f32 = 250.0;
@@ -44,8 +44,8 @@ pub(super) fn draw(context: &egui::Context, session: &Session, menu: &mut Menu, 
 fn number(pointer: &Pointer) -> String {
     let value = pointer.number.unwrap_or_default();
     match pointer.sight {
-        Sight::EinsteinRing => format!("{:.1}", value.to_degrees()),
-        Sight::BlueSide | Sight::RedSide | Sight::Aberration => format!("{value:.2}"),
+        Phenomenon::EinsteinRing => format!("{:.1}", value.to_degrees()),
+        Phenomenon::BlueSide | Phenomenon::RedSide | Phenomenon::Aberration => format!("{value:.2}"),
         _ => format!("{value:.1}"),
     }
 }
@@ -53,7 +53,7 @@ fn number(pointer: &Pointer) -> String {
 /// The title of a name, and its explanation.
 fn words(language: Language, pointer: &Pointer) -> [String; 2] {
     let key = pointer.sight.key();
-    let inside = pointer.sight == Sight::Shadow && pointer.number.is_none();
+    let inside = pointer.sight == Phenomenon::Shadow && pointer.number.is_none();
     let text = format!("seeing-{key}-text{}", if inside { "-inside" } else { "" });
     [language.say(&format!("seeing-{key}")), language.fill(&text, &[("number", number(pointer).as_str())])]
 }
@@ -74,7 +74,7 @@ fn labels(painter: &Painter, rect: Rect, pointers: &[Pointer], field_of_view: f6
         let [title, text] = words(language, pointer);
         let mut lines = vec![(title.as_str(), 13.5, colour(pointer.sight))];
         lines.extend(explained.then_some((text.as_str(), 11.5, TEXT)));
-        let text_box = TextBox::lay(painter, rect.min, Align2::LEFT_TOP, if explained { WIDTH } else { 0.7 * WIDTH }, &lines);
+        let text_box = TextBox::lay_out(painter, rect.min, Align2::LEFT_TOP, if explained { WIDTH } else { 0.7 * WIDTH }, &lines);
         let frame = best_place(text_box.frame.size(), rect, *at, &places, &taken);
         taken.push((frame, *at));
         boxes.push((text_box.moved(frame.min - rect.min), *pointer));
@@ -129,11 +129,11 @@ fn crosses_box(line: [Pos2; 2], frame: &Rect) -> bool {
     diagonals.into_iter().any(|diagonal| crosses(line, diagonal))
 }
 
-fn colour(sight: Sight) -> Color32 {
+fn colour(sight: Phenomenon) -> Color32 {
     match sight {
-        Sight::TrueTarget => TRUE,
-        Sight::TargetImage | Sight::SecondImage | Sight::EinsteinRing => SEEN,
-        Sight::Aberration => OWN,
+        Phenomenon::TrueTarget => TRUE,
+        Phenomenon::TargetImage | Phenomenon::SecondImage | Phenomenon::EinsteinRing => SEEN,
+        Phenomenon::Aberration => OWN,
         _ => FAINT,
     }
 }
@@ -152,7 +152,7 @@ mod tests {
         for language in Language::ALL {
             for size in [[1280.0, 720.0], [1920.0, 1080.0], [900.0, 620.0], [640.0, 360.0]] {
                 on_canvas(size, |painter, rect| {
-                    let pointers: Vec<Pointer> = Sight::ALL
+                    let pointers: Vec<Pointer> = Phenomenon::ALL
                         .iter()
                         .enumerate()
                         .map(|(k, sight)| {

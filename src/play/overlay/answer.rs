@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use crate::play::overlay::history::History;
+use crate::play::overlay::history::EditHistory;
 use crate::play::overlay::moments::travel;
 use crate::play::overlay::saving::{begun, command_line, save};
 use crate::play::overlay::state::{Ask, Overlay};
@@ -19,8 +19,8 @@ pub(super) fn answer(world: &mut World) {
     for ask in std::mem::take(&mut world.resource_mut::<Overlay>().asked) {
         match ask {
             Ask::Change { to, continues } => change(world, to, continues),
-            Ask::Undo => back(world, History::undo, "undone"),
-            Ask::Redo => back(world, History::redo, "done again"),
+            Ask::Undo => back(world, EditHistory::undo, "undone"),
+            Ask::Redo => back(world, EditHistory::redo, "done again"),
             Ask::Save => {
                 let said = save(world).unwrap_or_else(|why| why);
                 world.resource_mut::<Overlay>().said = said;
@@ -48,7 +48,7 @@ pub(super) fn answer(world: &mut World) {
 
 /// Gives settings new values and keeps the old ones; what clashes changes nothing.
 fn change(world: &mut World, to: Vec<(usize, Value)>, continues: bool) {
-    let Some(edits) = History::edits(&world.resource::<Session>().config, to) else { return };
+    let Some(edits) = EditHistory::edits(&world.resource::<Session>().config, to) else { return };
     match put(world, edits.iter().map(|(place, _, after)| (*place, after.clone()))) {
         Ok(()) => {
             let mut overlay = world.resource_mut::<Overlay>();
@@ -60,7 +60,7 @@ fn change(world: &mut World, to: Vec<(usize, Value)>, continues: bool) {
 }
 
 /// One change back or on, and what it is.
-fn back(world: &mut World, which: fn(&mut History) -> Vec<(usize, Value)>, word: &str) {
+fn back(world: &mut World, which: fn(&mut EditHistory) -> Vec<(usize, Value)>, word: &str) {
     let to = which(&mut world.resource_mut::<Overlay>().history);
     let names: Vec<String> = to.iter().map(|(place, _)| config::settings()[*place].path()).collect();
     let said =

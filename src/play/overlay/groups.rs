@@ -5,7 +5,7 @@ use bevy_egui::egui::{Align, Button, Color32, Label, Layout, Rect, RichText, Scr
 use bevy_egui::egui::{WidgetInfo, WidgetType, collapsing_header::paint_default_icon};
 
 use crate::play::overlay::rows::{CHANGED, ROW, UNSAVED, row};
-use crate::play::overlay::state::{Ask, Overlay, Seen};
+use crate::play::overlay::state::{Ask, Overlay, OverlayView};
 use crate::scene::GameConfig;
 use crate::scene::config;
 
@@ -54,7 +54,7 @@ fn lines(overlay: &mut Overlay) -> Vec<Line> {
 }
 
 /// Shows them.
-pub fn show(ui: &mut Ui, seen: &Seen, overlay: &mut Overlay) {
+pub fn show(ui: &mut Ui, seen: &OverlayView, overlay: &mut Overlay) {
     buttons(ui, seen, overlay);
     let search = TextEdit::singleline(&mut overlay.search).hint_text("search: name, unit or description").desired_width(f32::INFINITY);
     let search = ui.add(search);
@@ -83,7 +83,7 @@ pub fn show(ui: &mut Ui, seen: &Seen, overlay: &mut Overlay) {
 }
 
 /// What can be done with all of it.
-fn buttons(ui: &mut Ui, seen: &Seen, overlay: &mut Overlay) {
+fn buttons(ui: &mut Ui, seen: &OverlayView, overlay: &mut Overlay) {
     let (undo, redo) = overlay.history.depth();
     let unsaved = seen.marks.iter().filter(|mark| mark.unsaved).count();
     ui.horizontal(|ui| {
@@ -102,7 +102,7 @@ fn buttons(ui: &mut Ui, seen: &Seen, overlay: &mut Overlay) {
 }
 
 /// The heading of a group: a click opens or closes it.
-fn heading(ui: &mut Ui, rect: Rect, section: &'static str, open: bool, seen: &Seen, overlay: &mut Overlay) {
+fn heading(ui: &mut Ui, rect: Rect, section: &'static str, open: bool, seen: &OverlayView, overlay: &mut Overlay) {
     let response = ui.interact(rect, ui.layer_id().id.with(section), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::CollapsingHeader, true, section));
     if response.clicked() && !overlay.open.remove(section) {

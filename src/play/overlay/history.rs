@@ -13,13 +13,13 @@ pub type Edit = (usize, Value, Value);
 
 /// Changes, each of one setting or more that were changed at once.
 #[derive(Clone, Debug, Default)]
-pub struct History {
+pub struct EditHistory {
     done: Vec<Vec<Edit>>,
     undone: Vec<Vec<Edit>>,
     touched: BTreeSet<usize>,
 }
 
-impl History {
+impl EditHistory {
     /// What leads `config` to these values of settings, by their places; None where that is nothing.
     pub fn edits(config: &GameConfig, to: impl IntoIterator<Item = (usize, Value)>) -> Option<Vec<Edit>> {
         let edits = to.into_iter().map(|(place, value)| (place, config::settings()[place].get(config), value));
@@ -81,7 +81,7 @@ pub struct Mark {
 }
 
 /// The marks of all settings: `config` is what is played, `begun` what the game would begin with.
-pub fn marks(config: &GameConfig, begun: &GameConfig, history: &History) -> Vec<Mark> {
+pub fn marks(config: &GameConfig, begun: &GameConfig, history: &EditHistory) -> Vec<Mark> {
     let usual = GameConfig::default();
     let mark = |(place, setting): (usize, &Setting<GameConfig>)| {
         let value = setting.get(config);
@@ -100,14 +100,14 @@ mod tests {
 
     #[test]
     fn what_is_dragged_is_one_change() {
-        let (mut history, mut config) = (History::default(), GameConfig::default());
+        let (mut history, mut config) = (EditHistory::default(), GameConfig::default());
         let bloom = place("render.bloom");
         for (step, value) in [0.4, 0.5, 0.6].into_iter().enumerate() {
-            let edits = History::edits(&config, [(bloom, Value::Number(value))]).expect("a change");
+            let edits = EditHistory::edits(&config, [(bloom, Value::Number(value))]).expect("a change");
             config.render.bloom = value;
             history.did(edits, step > 0);
         }
-        assert_eq!(History::edits(&config, [(bloom, Value::Number(0.6))]), None);
+        assert_eq!(EditHistory::edits(&config, [(bloom, Value::Number(0.6))]), None);
         assert_eq!(history.depth(), (1, 0));
         assert_eq!(history.undo(), [(bloom, Value::Number(0.3))]);
         assert_eq!(history.redo(), [(bloom, Value::Number(0.6))]);

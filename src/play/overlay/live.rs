@@ -9,7 +9,7 @@ use bevy::prelude::*;
 use crate::scene::GameConfig;
 use crate::scene::config;
 use crate::scene::ship::Ai;
-use crate::sim::hands::HandsRule;
+use crate::sim::player_commands::ManualControl;
 use crate::sim::replay::ReplayLog;
 use crate::sim::setup::{reach_of, skills};
 use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
@@ -17,7 +17,7 @@ use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
 use crate::play::choices::Choices;
 use crate::play::input::bindings::Bindings;
 use crate::play::menus::navigate::FileConfig;
-use crate::play::picture::staging::{Staged, restage};
+use crate::play::picture::stage_loading::{CurrentStage, restage};
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::session::Session;
@@ -117,7 +117,7 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
     }
     let config = &session.effective();
     world.insert_resource(Bindings::of(config));
-    world.insert_resource(HandsRule::from(config));
+    world.insert_resource(ManualControl::from(config));
     world.insert_resource::<Skills>(skills(config));
     world.insert_resource(ChaseRules(session.scene.rules(config)));
     // The clock counts steps: a change of the step takes effect with the next chase, so that T never jumps.
@@ -135,11 +135,11 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
     {
         player.assist = None;
     }
-    if let Some(mut staged) = world.get_resource_mut::<Staged>() {
+    if let Some(mut current) = world.get_resource_mut::<CurrentStage>() {
         if before.as_ref().is_some_and(|before| changes_models(before, config)) {
             restage(world);
         } else if before.as_ref().is_some_and(|before| before.aurora != config.aurora) {
-            staged.0.change_aurora(&config.aurora);
+            current.0.change_aurora(&config.aurora);
         }
     }
     *before = Some(session.config);

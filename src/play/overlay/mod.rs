@@ -41,7 +41,7 @@ use frames::Frames;
 use history::{Mark, marks};
 use moments::Journey;
 use quality::QualityReport;
-use state::{Overlay, Passing, Seen, Tab};
+use state::{Overlay, OverlayView, Passing, Tab};
 
 /// Wall time between two looks at the counters, in seconds: faster, nobody could read them.
 const COUNTER_PERIOD: f64 = 0.5;
@@ -65,7 +65,7 @@ impl Plugin for OverlayPlugin {
             .init_resource::<Choices>()
             .insert_non_send(clipboard::Clipboard::default())
             .add_systems(Update, (answer::answer, moments::fly).chain().in_set(GameSet::Answer).before(run_time))
-            .add_systems(Update, (quality::tell.run_if(resource_exists::<Quality>), note).in_set(GameSet::Instruments))
+            .add_systems(Update, (quality::fill_report.run_if(resource_exists::<Quality>), note).in_set(GameSet::Instruments))
             .add_systems(EguiPrimaryContextPass, draw.in_set(PaintSet::Overlay))
             .add_systems(PostUpdate, clipboard::hand_on.after(EguiPostUpdateSet::ProcessOutput))
             .add_systems(Last, moments::keep);
@@ -131,7 +131,7 @@ fn draw(
         choices.over(&mut begun);
         known.0 = marks(&session.config, &begun, &overlay.history);
     }
-    let seen = Seen {
+    let seen = OverlayView {
         config: &session.config,
         marks: &known.0,
         frames: &frames,
@@ -148,7 +148,7 @@ fn draw(
 }
 
 /// Lays both windows out.
-pub fn show(context: &egui::Context, [left, right]: [Rect; 2], seen: &Seen, overlay: &mut Overlay) {
+pub fn show(context: &egui::Context, [left, right]: [Rect; 2], seen: &OverlayView, overlay: &mut Overlay) {
     window("Dev overlay", left).show(context, |ui| {
         ui.horizontal(|ui| {
             for (tab, name) in Tab::ALL {

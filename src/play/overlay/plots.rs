@@ -5,7 +5,7 @@ use egui_plot::{GridMark, HLine, Line, Plot, PlotPoints};
 
 use crate::play::overlay::frames::{Durations, WINDOW};
 use crate::play::overlay::rows::UNSAVED;
-use crate::play::overlay::state::Seen;
+use crate::play::overlay::state::OverlayView;
 
 /// Colours of the passes that are plotted, the longest first: told apart by all (Okabe and Ito's, on dark).
 const COLOURS: [Color32; 6] = [
@@ -18,7 +18,7 @@ const COLOURS: [Color32; 6] = [
 ];
 
 /// The page.
-pub fn show(ui: &mut Ui, seen: &Seen) {
+pub fn show(ui: &mut Ui, seen: &OverlayView) {
     if let Some((mean, worst)) = seen.frames.whole.mean_and_worst() {
         let line = format!("frame {mean:.1} ms mean, {worst:.1} ms worst of {WINDOW}   ({:.0} a second)", 1e3 / mean.max(1e-6));
         ui.label(RichText::new(line).strong());
@@ -68,7 +68,7 @@ pub fn show(ui: &mut Ui, seen: &Seen) {
 }
 
 /// What the stages counted, and what overflowed.
-fn counts(ui: &mut Ui, seen: &Seen) {
+fn counts(ui: &mut Ui, seen: &OverlayView) {
     let disk = seen.disk.filter(|counters| counters.arcs > 0);
     let geometry = seen.counters.map(|counters| (counters.complaint(), counters.to_string()));
     let all = geometry.into_iter().chain(disk.map(|counters| (counters.complaint(), counters.to_string())));

@@ -4,42 +4,42 @@ use bevy::prelude::*;
 use bevy_egui::egui::{Grid, RichText, Ui};
 
 use crate::play::picture::quality::Quality;
-use crate::render::quality::knobs::Knob;
+use crate::render::quality::options::QualityOption;
 
-/// What is told of how much is drawn. Whoever turns the knobs fills it.
+/// What is told of how much is drawn. Whoever sets the options fills it.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct QualityReport {
     /// What was chosen and why, in a sentence.
     pub why: String,
-    /// Each knob: its name, where it stands, what it is for.
-    pub knobs: Vec<(String, String, String)>,
+    /// Each option: its name, where it stands, what it is for.
+    pub options: Vec<(String, String, String)>,
     /// Error and time of the picture as predicted, in words.
     pub predicted: Vec<(String, String, String)>,
 }
 
 /// Tells the rung in use, and what chose it.
-pub(super) fn tell(quality: Res<Quality>, mut report: ResMut<QualityReport>) {
+pub(super) fn fill_report(quality: Res<Quality>, mut report: ResMut<QualityReport>) {
     let Some(rung) = quality.rung() else { return };
-    let knobs = Knob::ALL.into_iter().zip(rung.steps).map(|(knob, step)| {
-        let rest = if step == 0 { "at its finest".to_owned() } else { format!("step {step} of {}", knob.steps() - 1) };
-        (knob.name.to_owned(), knob.says(step), rest)
+    let options = QualityOption::ALL.into_iter().zip(rung.steps).map(|(option, step)| {
+        let rest = if step == 0 { "at its finest".to_owned() } else { format!("step {step} of {}", option.steps() - 1) };
+        (option.name.to_owned(), option.describe(step), rest)
     });
     let predicted = |name: &str, value: String, words: &str| (name.to_owned(), value, words.to_owned());
-    let told = QualityReport {
-        why: quality.says(),
-        knobs: knobs.collect(),
+    let filled = QualityReport {
+        why: quality.describe(),
+        options: options.collect(),
         predicted: vec![
             predicted("error, mean FLIP", format!("{:.3}", rung.error), "at most, in 99 of 100 moments"),
             predicted("time of a frame", format!("{:.0} %", 100.0 * rung.time), "of the finest's"),
         ],
     };
-    report.set_if_neq(told);
+    report.set_if_neq(filled);
 }
 
 /// Shows it.
 pub(super) fn show(ui: &mut Ui, report: &QualityReport) {
     ui.label(&report.why);
-    for (name, rows) in [("knobs", &report.knobs), ("predicted", &report.predicted)] {
+    for (name, rows) in [("knobs", &report.options), ("predicted", &report.predicted)] {
         if rows.is_empty() {
             continue;
         }

@@ -5,7 +5,7 @@ use bevy_egui::egui::{
     UiBuilder, WidgetInfo, WidgetType, pos2, vec2,
 };
 
-use crate::play::overlay::state::{Ask, Overlay, Seen};
+use crate::play::overlay::state::{Ask, Overlay, OverlayView};
 use crate::scene::GameConfig;
 use crate::scene::config::{self, Allowed, Setting, Value};
 
@@ -21,7 +21,7 @@ const VALUE: f32 = 172.0;
 const RESET: f32 = 20.0;
 
 /// The settings with these paths, one below the other.
-pub fn list(ui: &mut Ui, paths: &[&str], seen: &Seen, overlay: &mut Overlay) {
+pub fn list(ui: &mut Ui, paths: &[&str], seen: &OverlayView, overlay: &mut Overlay) {
     for path in paths {
         let Some(place) = config::settings().iter().position(|setting| setting.path() == *path) else { continue };
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
@@ -30,7 +30,7 @@ pub fn list(ui: &mut Ui, paths: &[&str], seen: &Seen, overlay: &mut Overlay) {
 }
 
 /// The setting at `place` in the list of all, in `rect`.
-pub fn row(ui: &mut Ui, rect: Rect, place: usize, seen: &Seen, overlay: &mut Overlay) {
+pub fn row(ui: &mut Ui, rect: Rect, place: usize, seen: &OverlayView, overlay: &mut Overlay) {
     let setting = &config::settings()[place];
     let mark = seen.marks.get(place).copied().unwrap_or_default();
     let upper = Rect::from_min_size(rect.min + vec2(0.0, 1.0), vec2(rect.width(), 20.0));

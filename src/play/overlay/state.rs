@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use bevy::prelude::Resource;
 
 use crate::play::overlay::frames::Frames;
-use crate::play::overlay::history::{History, Mark};
+use crate::play::overlay::history::{EditHistory, Mark};
 use crate::play::overlay::quality::QualityReport;
 use crate::render::disk::types::DiskCounters;
 use crate::render::gpu::types::Counters;
@@ -71,7 +71,7 @@ pub struct Overlay {
     /// The groups that are open.
     pub open: BTreeSet<&'static str>,
     /// What was changed.
-    pub history: History,
+    pub history: EditHistory,
     /// What is asked for and not done yet.
     pub asked: Vec<Ask>,
     /// What was done last, or why not.
@@ -132,7 +132,7 @@ pub struct Passing {
 }
 
 /// What the overlay shows.
-pub struct Seen<'a> {
+pub struct OverlayView<'a> {
     /// What is played.
     pub config: &'a GameConfig,
     /// How each setting stands.

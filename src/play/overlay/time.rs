@@ -3,13 +3,13 @@
 use bevy_egui::egui::{Slider, Ui};
 
 use crate::play::overlay::rows;
-use crate::play::overlay::state::{Ask, Overlay, Seen};
+use crate::play::overlay::state::{Ask, Overlay, OverlayView};
 
 /// Steps that pass at a press of a button.
 const STEPS: [u32; 3] = [1, 8, 64];
 
 /// The page.
-pub fn show(ui: &mut Ui, seen: &Seen, overlay: &mut Overlay) {
+pub fn show(ui: &mut Ui, seen: &OverlayView, overlay: &mut Overlay) {
     let passing = seen.passing;
     ui.label(format!("T = {:.3} r_s/c, in steps of {} r_s/c", passing.now, passing.step));
     ui.horizontal(|ui| {

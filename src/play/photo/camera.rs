@@ -7,7 +7,7 @@ use crate::spacetime::orbit::static_momentum;
 
 /// How the free camera moves through space; it stands still in the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Motion {
+pub enum CameraMotion {
     /// As the ship does that it was on.
     #[default]
     Ship,
@@ -17,9 +17,9 @@ pub enum Motion {
     Hovering,
 }
 
-impl Motion {
+impl CameraMotion {
     /// All of them.
-    pub const ALL: [Motion; 3] = [Motion::Ship, Motion::Falling, Motion::Hovering];
+    pub const ALL: [CameraMotion; 3] = [CameraMotion::Ship, CameraMotion::Falling, CameraMotion::Hovering];
 }
 
 /// The nearest to the hole's middle, and the farthest, in r_s.
@@ -35,7 +35,7 @@ pub struct FreeCamera {
     /// Camera axes to rain axes.
     pub attitude: DQuat,
     /// How it moves.
-    pub motion: Motion,
+    pub motion: CameraMotion,
     /// Horizontal field of view, in radians.
     pub field_of_view: f64,
 }
@@ -44,15 +44,15 @@ impl FreeCamera {
     /// Where `home` is.
     pub fn at(home: Observer) -> FreeCamera {
         let Observer { position, attitude, field_of_view, .. } = home;
-        FreeCamera { home, position, attitude, motion: Motion::Ship, field_of_view }
+        FreeCamera { home, position, attitude, motion: CameraMotion::Ship, field_of_view }
     }
 
     /// The camera for the picture.
     pub fn observer(&self) -> Observer {
         let momentum = match self.motion {
-            Motion::Ship => self.home.momentum,
-            Motion::Falling => DVec3::ZERO,
-            Motion::Hovering => static_momentum(self.position).unwrap_or_default(),
+            CameraMotion::Ship => self.home.momentum,
+            CameraMotion::Falling => DVec3::ZERO,
+            CameraMotion::Hovering => static_momentum(self.position).unwrap_or_default(),
         };
         Observer { position: self.position, momentum, attitude: self.attitude, field_of_view: self.field_of_view }
     }
@@ -88,7 +88,7 @@ mod tests {
         let mut inside = false;
         for _ in 0..400 {
             camera.moved(DVec3::NEG_Z * 0.05, DVec3::ZERO);
-            for motion in Motion::ALL {
+            for motion in CameraMotion::ALL {
                 camera.motion = motion;
                 let observer = camera.observer();
                 assert!(observer.position.is_finite() && observer.momentum.is_finite());

@@ -6,7 +6,7 @@ use std::time::SystemTime;
 use bevy::prelude::*;
 
 use crate::picture_file;
-use crate::play::develop::{Developing, Progress};
+use crate::play::develop::{DevelopProgress, Developing};
 use crate::play::hud::notice::Notice;
 use crate::play::session::Session;
 use crate::play::window::pictures::{folders, stem};
@@ -41,12 +41,12 @@ pub fn begin(world: &mut World, moment: &Snapshot, how: How) {
     });
     match started {
         Ok(job) => world.get_resource_or_init::<Darkroom>().0.push(job),
-        Err(why) => say_failed(world, &why),
+        Err(why) => notify_failure(world, &why),
     }
 }
 
 /// Says that there will be no picture, and why.
-pub fn say_failed(world: &mut World, why: &str) {
+pub fn notify_failure(world: &mut World, why: &str) {
     let text = world.resource::<Session>().language().fill("photo-failed", &[("why", why)]);
     let until = world.resource::<Time<Real>>().elapsed_secs_f64() + 6.0;
     world.insert_resource(Notice { text, until, share: None });
@@ -89,15 +89,15 @@ pub(super) fn watch(mut darkroom: ResMut<Darkroom>, session: Res<Session>, real:
         let drawn = *how == How::Drawn;
         let named = |key: &str, path: &Path| language.fill(key, &[("file", file(path).as_str())]);
         let (text, seconds, share) = match developing.progress() {
-            Progress::Traced(share) => {
+            DevelopProgress::Traced(share) => {
                 let key = if drawn { "photo-drawing" } else { "photo-developing" };
                 (language.fill(key, &[("percent", format!("{:.0}", 100.0 * share).as_str())]), 0.5, Some(share))
             }
-            Progress::Done(path) if drawn => (named("photo-saved", &path), 6.0, None),
-            Progress::Done(path) if whole => (named("photo-developed", &path), 6.0, None),
-            Progress::Done(path) => (named("photo-developed-whole", &path), 8.0, None),
-            Progress::Failed(why) => (language.fill("photo-failed", &[("why", why.as_str())]), 8.0, None),
-            Progress::Cancelled => (String::new(), 0.0, None),
+            DevelopProgress::Done(path) if drawn => (named("photo-saved", &path), 6.0, None),
+            DevelopProgress::Done(path) if whole => (named("photo-developed", &path), 6.0, None),
+            DevelopProgress::Done(path) => (named("photo-developed-whole", &path), 8.0, None),
+            DevelopProgress::Failed(why) => (language.fill("photo-failed", &[("why", why.as_str())]), 8.0, None),
+            DevelopProgress::Cancelled => (String::new(), 0.0, None),
         };
         let goes_on = share.is_some();
         // How far one is does not hide where another is.

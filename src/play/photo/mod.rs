@@ -18,7 +18,7 @@ use crate::play::picture::CurrentShot;
 use crate::play::picture::snapshot::snapshot;
 use crate::play::schedule::GameSet;
 use crate::play::session::Session;
-use camera::{FreeCamera, Motion};
+use camera::{CameraMotion, FreeCamera};
 use darkroom::{Darkroom, How};
 pub use state::Photo;
 use state::{FIELD, STOPS};
@@ -59,9 +59,9 @@ pub fn entries(world: &World) -> Vec<Entry> {
     let language = session.language();
     let knob = |id: &'static str, key: &str, knob, value: String| Entry::new(id, language.say(key), Does::Photo(knob)).valued(value);
     let motion = language.say(match photo.camera.motion {
-        Motion::Ship => "photo-motion-ship",
-        Motion::Falling => "photo-motion-falling",
-        Motion::Hovering => "photo-motion-hovering",
+        CameraMotion::Ship => "photo-motion-ship",
+        CameraMotion::Falling => "photo-motion-falling",
+        CameraMotion::Hovering => "photo-motion-hovering",
     });
     let size = photo.size().map_or_else(|| language.say("photo-size-window"), |[width, height]| format!("{width} × {height}"));
     let field = photo.camera.field_of_view.to_degrees();
@@ -113,7 +113,7 @@ pub fn press(world: &mut World, knob: PhotoKnob) {
                     let moment = moment.resized(size.unwrap_or(moment.size));
                     darkroom::begin(world, &moment, how);
                 }
-                Err(why) => darkroom::say_failed(world, why),
+                Err(why) => darkroom::notify_failure(world, why),
             }
         }
         PhotoKnob::Home => {

@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 
 use crate::play::menus::entries::PhotoKnob;
-use crate::play::photo::camera::{FreeCamera, Motion};
+use crate::play::photo::camera::{CameraMotion, FreeCamera};
 use crate::scene::GameConfig;
 use crate::sim::snapshot::FrameCamera;
 
@@ -74,8 +74,8 @@ impl Photo {
                 self.camera.field_of_view = degrees.clamp(FIELD.0, FIELD.1).to_radians();
             }
             PhotoKnob::Motion => {
-                let place = Motion::ALL.iter().position(|motion| *motion == self.camera.motion).unwrap_or(0);
-                self.camera.motion = Motion::ALL[round(place, Motion::ALL.len())];
+                let place = CameraMotion::ALL.iter().position(|motion| *motion == self.camera.motion).unwrap_or(0);
+                self.camera.motion = CameraMotion::ALL[round(place, CameraMotion::ALL.len())];
             }
             PhotoKnob::Size => self.size = round(self.size, SIZES.len()),
             _ => {

@@ -4,7 +4,7 @@ pub mod now;
 pub mod quality;
 pub mod sight;
 pub mod snapshot;
-pub mod staging;
+pub mod stage_loading;
 
 use bevy::prelude::*;
 use bevy::window::PrimaryWindow;
@@ -20,14 +20,14 @@ use crate::play::schedule::GameSet;
 use crate::render::plugin::{FrameToDraw, RenderStatistics};
 use crate::render::settings::{ANY_FILL, Settings, greatest_rise};
 use crate::render::stage::settings;
-use crate::scene::crew::Crew;
 use crate::scene::mission::GoalTask;
+use crate::scene::pilot_kind::PilotKind;
 use crate::sim::replay::Playback;
 use crate::sim::snapshot::FrameCamera;
 use now::Now;
 use quality::Quality;
 use sight::{ScreenContent, is_cut};
-use staging::{Staged, StagingPlugin};
+use stage_loading::{CurrentStage, StageLoadingPlugin};
 
 /// Loads the scene, and makes a frame of it each time. Needs [`RelativisticRenderPlugin`](crate::render::plugin::RelativisticRenderPlugin)
 /// and [`GamePlugin`](crate::play::game::GamePlugin).
@@ -35,9 +35,9 @@ pub struct PicturePlugin;
 
 impl Plugin for PicturePlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<CurrentShot>().init_resource::<Quality>().add_plugins(StagingPlugin).add_systems(
+        app.init_resource::<CurrentShot>().init_resource::<Quality>().add_plugins(StageLoadingPlugin).add_systems(
             Update,
-            (point_camera, quality::choose, make_frame).chain().in_set(GameSet::Picture).run_if(resource_exists::<Staged>),
+            (point_camera, quality::choose, make_frame).chain().in_set(GameSet::Picture).run_if(resource_exists::<CurrentStage>),
         );
     }
 }
@@ -80,7 +80,7 @@ fn point_camera(
     let lead = if player.autopilot || playback.is_some() { DQuat::IDENTITY } else { turn.lead(now.share()) };
     let attitude = player.follower.follow((state.attitude * lead).normalize(), seconds, rigid);
     // Who does not fly by hand sees where the flight is to lead.
-    let watches = player.autopilot && player.crew != Some(Crew::Hands) || playback.is_some();
+    let watches = player.autopilot && player.pilot != Some(PilotKind::Hands) || playback.is_some();
     let sought = now.target().filter(|_| (player.looking || watches) && sight == ScreenContent::Own);
     let facing = sought.and_then(|(_, target)| player.gaze.facing(&state, player.view, now.session.length(me), attitude, time, target));
     let attitude = player.gaze.turned(attitude, facing, seconds, video.reduced_motion);
@@ -101,7 +101,7 @@ fn point_camera(
 /// Makes the frame to draw.
 fn make_frame(
     now: Now,
-    (mut staged, shot, statistics, quality): (ResMut<Staged>, Res<CurrentShot>, Res<RenderStatistics>, Res<Quality>),
+    (mut current, shot, statistics, quality): (ResMut<CurrentStage>, Res<CurrentShot>, Res<RenderStatistics>, Res<Quality>),
     real: Res<Time<Real>>,
     screen: Res<State<Screen>>,
     (windows, photo): (Query<&Window, With<PrimaryWindow>>, Option<Res<Photo>>),
@@ -120,7 +120,7 @@ fn make_frame(
     let config = &now.session.config;
     let config = &photo.map_or_else(|| config.clone(), |photo| photo.config(config));
     // Times of an earlier frame will do.
-    staged.0.ration_aurora(&statistics.passes);
+    current.0.ration_aurora(&statistics.passes);
     let mut settings = Settings { rise, ..quality.turned(&settings(config)) };
     if is_cut(&mut last, sight(&now, *screen.get()), now.clock()) {
         // Another picture than that before: the exposure is at once what suits it. What was exposed before says nothing of how light a ship
@@ -131,7 +131,7 @@ fn make_frame(
     }
     settings.own_ship = shot.lit;
     settings.engines = Some([config.ship.thrust, config.enemy.thrust]);
-    frame.0 = Some(staged.0.frame(shot.camera, size, now.time(), &now.histories(), shot.hidden, &settings));
+    frame.0 = Some(current.0.frame(shot.camera, size, now.time(), &now.histories(), shot.hidden, &settings));
 }
 
 /// What the screen shows of the chase.

@@ -3,13 +3,13 @@
 use bevy::prelude::*;
 use bevy::window::{Monitor, OnMonitor, PrimaryWindow};
 
-use crate::play::picture::staging::Staged;
+use crate::play::picture::stage_loading::CurrentStage;
 use crate::play::session::Session;
 use crate::render::plugin::RenderStatistics;
+use crate::render::quality::costs::{QualityCosts, SceneClass};
 use crate::render::quality::governor::Governor;
-use crate::render::quality::knobs::turned;
-use crate::render::quality::ladder::{Rung, ladder, within};
-use crate::render::quality::prices::{Prices, SceneClass};
+use crate::render::quality::ladder::{QualityRung, ladder, within};
+use crate::render::quality::options::turned;
 use crate::render::settings::Settings;
 use crate::scene::GameConfig;
 
@@ -30,7 +30,7 @@ pub struct Quality {
     /// Whether `automatic` is; else it is as `high`, for pictures that nobody waits for.
     governed: bool,
     class: Option<SceneClass>,
-    ladder: Vec<Rung>,
+    ladder: Vec<QualityRung>,
     governor: Governor,
     rung: usize,
     hold: Option<f64>,
@@ -43,7 +43,7 @@ impl Quality {
     }
 
     /// The rung in use; None before the first frame.
-    pub fn rung(&self) -> Option<&Rung> {
+    pub fn rung(&self) -> Option<&QualityRung> {
         self.ladder.get(self.rung)
     }
 
@@ -63,7 +63,7 @@ impl Quality {
     }
 
     /// What is chosen and why, in a sentence.
-    pub fn says(&self) -> String {
+    pub fn describe(&self) -> String {
         let Some(rung) = self.rung() else { return "nothing is drawn yet".into() };
         let why = match self.hold {
             Some(hold) => format!("to hold {hold:.1} ms a frame (now {:.1})", self.governor.mean()),
@@ -74,7 +74,7 @@ impl Quality {
             "rung {} of {} for scenes of the class {class}, {why}: {}; predicted error {:.3} (mean FLIP), {:.0} % of the finest's time",
             self.rung + 1,
             self.ladder.len(),
-            rung.says(),
+            rung.describe(),
             rung.error,
             100.0 * rung.time
         )
@@ -87,7 +87,7 @@ impl Quality {
         }
         let error = self.rung().map_or(0.0, |rung| rung.error);
         self.class = Some(class);
-        self.ladder = ladder(Prices::shipped(), class);
+        self.ladder = ladder(QualityCosts::shipped(), class);
         self.rung = within(&self.ladder, error);
         self.governor.begin_at(self.rung);
     }
@@ -127,13 +127,13 @@ fn hold(config: &GameConfig, rates: impl Iterator<Item = f64>) -> f64 {
 
 /// Chooses how the next frame is drawn.
 pub(super) fn choose(
-    (staged, session): (Res<Staged>, Res<Session>),
+    (current, session): (Res<CurrentStage>, Res<Session>),
     (statistics, real): (Res<RenderStatistics>, Res<Time<Real>>),
     (monitors, windows): (Query<&Monitor>, Query<&OnMonitor, With<PrimaryWindow>>),
     mut quality: ResMut<Quality>,
 ) {
-    let is_new = quality.class != Some(staged.0.class());
-    quality.take_up(staged.0.class());
+    let is_new = quality.class != Some(current.0.class());
+    quality.take_up(current.0.class());
     // The window's own display, if that is known.
     let own = windows.iter().find_map(|on| monitors.get(on.0).ok());
     let shown: Vec<&Monitor> = own.map_or_else(|| monitors.iter().collect(), |own| vec![own]);
@@ -143,7 +143,7 @@ pub(super) fn choose(
     let before = quality.rung;
     quality.choose(&session.config, hold, 1000.0 * real.delta_secs_f64(), passes);
     if is_new || quality.rung != before {
-        debug!("picture: {}", quality.says());
+        debug!("picture: {}", quality.describe());
     }
 }
 

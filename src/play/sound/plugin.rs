@@ -8,7 +8,7 @@ use crate::play::schedule::GameSet;
 use crate::play::session::Session;
 use crate::play::sound::heard::Heard;
 use crate::play::sound::output::{Wanted, open};
-use crate::play::sound::read::Ear;
+use crate::play::sound::read::Listener;
 use crate::play::sound::volumes::Volumes;
 use crate::sim::Clock;
 
@@ -17,7 +17,7 @@ pub struct SoundPlugin;
 
 impl Plugin for SoundPlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<Ears>()
+        app.init_resource::<SceneListener>()
             .insert_resource(Loudspeakers(open()))
             .add_systems(Update, (tune.run_if(resource_exists_and_changed::<Session>), listen).chain().in_set(GameSet::Instruments));
     }
@@ -27,12 +27,12 @@ impl Plugin for SoundPlugin {
 #[derive(Resource)]
 struct Loudspeakers(Option<Wanted>);
 
-/// The ear of the scene that is played.
+/// The listener of the scene that is played.
 #[derive(Resource, Default)]
-struct Ears(Option<Ear>);
+struct SceneListener(Option<Listener>);
 
-fn tune(session: Res<Session>, mut ears: ResMut<Ears>) {
-    ears.0 = Some(Ear::of(&session));
+fn tune(session: Res<Session>, mut listener: ResMut<SceneListener>) {
+    listener.0 = Some(Listener::of(&session));
 }
 
 fn listen(world: &World) {
@@ -56,7 +56,7 @@ fn now(world: &World) -> Heard {
         let overstep = world.get_resource::<Time<Fixed>>().map_or(0.0, Time::overstep_fraction_f64);
         let time = (clock.time - clock.step * (1.0 - overstep)).max(0.0);
         let shot = world.get_resource::<CurrentShot>().and_then(|shot| shot.0);
-        world.get_resource::<Ears>()?.0.as_ref()?.heard(world, session, time, shot.map(|shot| shot.camera.attitude))
+        world.get_resource::<SceneListener>()?.0.as_ref()?.heard(world, session, time, shot.map(|shot| shot.camera.attitude))
     };
     match screen {
         Some(Screen::Playing) => flight().unwrap_or(Heard::MUSIC),
@@ -75,7 +75,7 @@ mod tests {
         let session = Session::load(None, Some("chase"), Some(1)).expect("the game's own files");
         let mut app = app_of(&session.scene, &session.effective(), 1);
         (0..64).for_each(|_| app.world_mut().run_schedule(FixedUpdate));
-        app.insert_resource(Ears(Some(Ear::of(&session)))).insert_resource(session).insert_resource(State::new(screen));
+        app.insert_resource(SceneListener(Some(Listener::of(&session)))).insert_resource(session).insert_resource(State::new(screen));
         now(app.world())
     }
 

@@ -1,4 +1,4 @@
-//! From the game's world to what is heard in it. The ship is the ear: light, gas and acceleration are as they are for it.
+//! From the game's world to what is heard in it. The ship is the listener: light, gas and acceleration are as they are for it.
 
 use bevy::prelude::{Entity, World};
 use glam::DQuat;
@@ -14,8 +14,8 @@ use crate::play::sound::heard::{Alarm, Beacon, Heard, load, loudness};
 use crate::play::words::Language;
 use crate::scene::disk::Gas;
 use crate::sim::bolts::Hits;
-use crate::sim::hands::Avoiding;
 use crate::sim::pilot::rollout::Point;
+use crate::sim::player_commands::Avoiding;
 use crate::sim::sight::{direction, emission_time, frequency_ratio};
 use crate::sim::{ActiveMission, Bolts, Chase, ChaseRules, Clock, Controls, Engine, Fleet, Fuel, History, Progress, ShipMotion, Turning};
 use crate::spacetime::Observer;
@@ -30,18 +30,18 @@ const HURRY: f64 = 0.6;
 /// Radii at which the disk's depth is looked at for its greatest.
 const RINGS: u32 = 64;
 
-/// What an ear must know of the scene.
+/// What a listener must know of the scene.
 #[derive(Clone, Debug)]
-pub struct Ear {
+pub struct Listener {
     gas: Option<Gas>,
     /// Optical depth of the disk's thickest ring.
     thickest: f64,
     scale: Scale,
 }
 
-impl Ear {
+impl Listener {
     /// For the scene of a session.
-    pub fn of(session: &Session) -> Ear {
+    pub fn of(session: &Session) -> Listener {
         let config = session.effective();
         let mass = config.hole.mass_solar;
         let gas = session.scene.disk(&config).map(|disk| Gas::new(&disk, mass));
@@ -49,7 +49,7 @@ impl Ear {
             let [inner, outer] = gas.extent();
             (0..=RINGS).map(|k| gas.radial.depth(inner + (outer - inner) * f64::from(k) / f64::from(RINGS))).fold(0.0, f64::max)
         });
-        Ear { gas, thickest, scale: Scale::new(mass, Language::English) }
+        Listener { gas, thickest, scale: Scale::new(mass, Language::English) }
     }
 
     /// What the player's ship hears at T = `time` (r_s/c); None where no flight has begun. Left and right are those of a head with this
@@ -122,12 +122,12 @@ impl Ear {
 /// image of order 1.
 pub fn beacon(state: &ShipState, attitude: DQuat, time: f64, target: &History) -> Option<Beacon> {
     let order = Order::ALL[0];
-    let ear = Observer { position: state.position, momentum: state.momentum, attitude, field_of_view: 1.0 };
-    let emission = emission_time(&ear, time, target, order)?;
+    let listener = Observer { position: state.position, momentum: state.momentum, attitude, field_of_view: 1.0 };
+    let emission = emission_time(&listener, time, target, order)?;
     let emitted = target.at(emission);
     let age = time - emission;
-    let ratio = frequency_ratio(&ear, &emitted, order, age)?;
-    let pan = direction(&ear, emitted.position, order, age)?.x;
+    let ratio = frequency_ratio(&listener, &emitted, order, age)?;
+    let pan = direction(&listener, emitted.position, order, age)?.x;
     Some(Beacon { ratio, emitted: emitted.proper_time, loudness: loudness(ratio, age), pan })
 }
 

@@ -7,7 +7,7 @@ use bevy::prelude::World;
 use crate::play::session::Session;
 use crate::play::sound::file::{self, SoundFileError};
 use crate::play::sound::heard::Heard;
-use crate::play::sound::read::Ear;
+use crate::play::sound::read::Listener;
 use crate::play::sound::volumes::Volumes;
 use crate::sim::Clock;
 
@@ -15,7 +15,7 @@ use crate::sim::Clock;
 #[derive(Clone, Debug)]
 pub struct Recorder {
     session: Session,
-    ear: Ear,
+    listener: Listener,
     /// After each step: T in r_s/c, and what was heard.
     moments: Vec<(f64, Heard)>,
     /// Length of a step, in r_s/c of T.
@@ -25,14 +25,14 @@ pub struct Recorder {
 impl Recorder {
     /// For a flight of this session.
     pub fn new(session: &Session) -> Recorder {
-        Recorder { session: session.clone(), ear: Ear::of(session), moments: Vec::new(), step: session.config.clock.step }
+        Recorder { session: session.clone(), listener: Listener::of(session), moments: Vec::new(), step: session.config.clock.step }
     }
 
     /// Listens after a step.
     pub fn listen(&mut self, world: &World) {
         let Some(clock) = world.get_resource::<Clock>() else { return };
         self.step = clock.step;
-        let heard = self.ear.heard(world, &self.session, clock.time, None);
+        let heard = self.listener.heard(world, &self.session, clock.time, None);
         self.moments.push((clock.time, heard.unwrap_or(Heard::MUSIC)));
     }
 

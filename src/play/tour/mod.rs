@@ -11,10 +11,10 @@ use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 use bevy::time::TimeUpdateStrategy;
 
 use crate::play::choices::Choices;
-use crate::play::picture::staging::Staged;
+use crate::play::picture::stage_loading::CurrentStage;
 use crate::play::session::{Session, SessionError};
 use crate::play::window::interface::DrawnOn;
-use crate::play::window::{Options, Surface, app};
+use crate::play::window::{Options, OutputSurface, app};
 use crate::render::Gpu;
 use crate::render::gpu::device::DeviceError;
 use crate::scene::Difficulty;
@@ -97,7 +97,7 @@ fn visit(args: &TourArgs, language: &str, size: [u32; 2]) -> Result<usize, TourE
         let Some(setting) = setting(path) else { continue };
         setting.set(&mut session.config, value).map_err(TourError::TextSize)?;
     }
-    let mut app = app(session, &Options::default(), Surface::Picture(size), Choices::default());
+    let mut app = app(session, &Options::default(), OutputSurface::Picture(size), Choices::default());
     app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_secs_f64(FRAME)));
     app.finish();
     app.cleanup();
@@ -125,7 +125,7 @@ pub fn wait_for_scene(app: &mut App) {
     const LOOKS: (u32, Duration) = (6000, Duration::from_millis(10));
     app.update();
     for _ in 0..LOOKS.0 {
-        if app.world().contains_resource::<Staged>() {
+        if app.world().contains_resource::<CurrentStage>() {
             return;
         }
         std::thread::sleep(LOOKS.1);

@@ -19,7 +19,7 @@ use crate::render::settings::Settings;
 use crate::render::shot::surroundings;
 use crate::render::stage::{Stage, settings};
 use crate::render::{Gpu, Renderer};
-use plan::{Moment, PARTS, Part, TITLE, smooth};
+use plan::{PARTS, Part, TITLE, TrailerMoment, smooth};
 use take::{Take, TakeError};
 use title::{Letters, Style};
 
@@ -74,7 +74,7 @@ pub fn make(gpu: &Gpu, args: &TrailerArgs, parts: &[Part]) -> Result<u32, Traile
     let mut studio = Studio::new(gpu, args.size);
     let bar = progress("trailer", frames);
     for index in 0..frames {
-        let moment = Moment::at(parts, f64::from(index) / f64::from(frames), seconds);
+        let moment = TrailerMoment::at(parts, f64::from(index) / f64::from(frames), seconds);
         let (Some(take), Some(part)) = (takes.get_mut(moment.part), parts.get(moment.part)) else { continue };
         let mut rgb = studio.picture(take, &moment, 1.0 / f64::from(args.fps))?;
         finish(&mut studio.letters, part, &moment, args.size, &mut rgb);
@@ -113,7 +113,7 @@ impl Studio<'_> {
     }
 
     /// The picture of a moment, RGB; `seconds` have passed since the one before.
-    fn picture(&mut self, take: &mut Take, moment: &Moment, seconds: f64) -> Result<Vec<u8>, PictureError> {
+    fn picture(&mut self, take: &mut Take, moment: &TrailerMoment, seconds: f64) -> Result<Vec<u8>, PictureError> {
         let config = &take.session.config;
         let (mut stage, mut settings) = match self.set.take() {
             Some((part, stage, settings)) if part == moment.part => {
@@ -139,7 +139,7 @@ impl Studio<'_> {
 }
 
 /// Fades, and writes the words.
-fn finish(letters: &mut Letters, part: &Part, moment: &Moment, size: [u32; 2], rgb: &mut [u8]) {
+fn finish(letters: &mut Letters, part: &Part, moment: &TrailerMoment, size: [u32; 2], rgb: &mut [u8]) {
     // The title comes after the first third of the last part.
     let title = if moment.is_last { smooth((moment.share - 0.3) / 0.25) } else { 0.0 };
     let light = moment.light * (1.0 + (BEHIND_TITLE - 1.0) * title);

@@ -140,7 +140,7 @@ const FADE_SHARE: f64 = 0.3;
 
 /// A moment of the trailer.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moment {
+pub struct TrailerMoment {
     /// Index of the part.
     pub part: usize,
     /// T in r_s/c.
@@ -153,9 +153,9 @@ pub struct Moment {
     pub is_last: bool,
 }
 
-impl Moment {
+impl TrailerMoment {
     /// The moment at `share` (0 to 1) of a trailer of these parts, at least one, and of so many seconds.
-    pub fn at(parts: &[Part], share: f64, seconds: f64) -> Moment {
+    pub fn at(parts: &[Part], share: f64, seconds: f64) -> TrailerMoment {
         let whole: f64 = parts.iter().map(|part| part.seconds).sum();
         let mut left = share.clamp(0.0, 1.0) * whole;
         let mut index = 0;
@@ -169,7 +169,7 @@ impl Moment {
         let is_last = index + 1 == parts.len();
         let [rise, fall] = [FADE, if is_last { LAST_FADE } else { FADE }].map(|fade| fade.min(FADE_SHARE * length));
         let light = smooth(share * length / rise).min(smooth((1.0 - share) * length / fall));
-        Moment { part: index, time: part.span[0] + (part.span[1] - part.span[0]) * share, share, light, is_last }
+        TrailerMoment { part: index, time: part.span[0] + (part.span[1] - part.span[0]) * share, share, light, is_last }
     }
 }
 
@@ -191,9 +191,9 @@ mod tests {
     /// All parts are shown, in their order and over their whole span; each comes out of black and goes back, and is never made brighter.
     #[test]
     fn every_part_is_shown_between_two_fades() {
-        let all: Vec<Moment> = (0..=3000).map(|k| Moment::at(&PARTS, f64::from(k) / 3000.0, 30.0)).collect();
+        let all: Vec<TrailerMoment> = (0..=3000).map(|k| TrailerMoment::at(&PARTS, f64::from(k) / 3000.0, 30.0)).collect();
         for (index, part) in PARTS.iter().enumerate() {
-            let of: Vec<&Moment> = all.iter().filter(|moment| moment.part == index).collect();
+            let of: Vec<&TrailerMoment> = all.iter().filter(|moment| moment.part == index).collect();
             let (first, last) = (of[0], of[of.len() - 1]);
             assert!(first.light < 0.02 && last.light < 0.02, "{index}: {first:?} {last:?}");
             assert!((first.time - part.span[0]).abs() < 0.05 && (last.time - part.span[1]).abs() < 0.05, "{index}: {first:?} {last:?}");

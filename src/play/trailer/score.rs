@@ -2,7 +2,7 @@
 
 use crate::play::sound::heard::Heard;
 use crate::play::sound::volumes::Volumes;
-use crate::play::trailer::plan::{Moment, Part};
+use crate::play::trailer::plan::{Part, TrailerMoment};
 use crate::play::trailer::take::Take;
 
 /// What is heard changes so often a second, as in the game's steps at the usual pace.
@@ -24,7 +24,7 @@ pub fn score(parts: &[Part], takes: &[Take], seconds: f64) -> (Vec<Heard>, f64) 
     let mut joined = Joined::default();
     let moments = (0..count as usize)
         .map(|index| {
-            let moment = Moment::at(parts, index as f64 / count, seconds);
+            let moment = TrailerMoment::at(parts, index as f64 / count, seconds);
             let heard = takes.get(moment.part).map_or(Heard::MUSIC, |take| take.heard(moment.time));
             let tension = parts.get(moment.part).map_or(0.0, |part| part.tension);
             joined.next(moment.part, Heard { danger: heard.danger.max(tension), alarm: None, ..heard })

@@ -10,7 +10,7 @@ use crate::play::camera::state_of;
 use crate::play::session::Session;
 use crate::play::sound::heard::Heard;
 use crate::play::sound::record::Recorder;
-use crate::play::trailer::plan::{Camera, Moment, Part, Place};
+use crate::play::trailer::plan::{Camera, Part, Place, TrailerMoment};
 use crate::render::stage::{Stage, static_camera};
 use crate::scene::{self, Difficulty, GameConfig, SceneError};
 use crate::sim::bolts::Bolts;
@@ -106,7 +106,7 @@ impl Take {
     }
 
     /// The camera at a moment, and the ship that is not drawn.
-    pub fn camera(&mut self, stage: &Stage, moment: &Moment) -> (Observer, Option<usize>) {
+    pub fn camera(&mut self, stage: &Stage, moment: &TrailerMoment) -> (Observer, Option<usize>) {
         let wide = if self.part.fov > 0.0 { self.part.fov } else { self.session.config.video.fov };
         let (field_of_view, share, time) = (wide.to_radians(), moment.share, moment.time);
         match self.part.camera {

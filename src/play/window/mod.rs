@@ -33,7 +33,7 @@ use crate::play::session::{SCENE, Session};
 use crate::play::sound::plugin::SoundPlugin;
 use crate::render::plugin::RelativisticRenderPlugin;
 use crate::render::shot::surroundings;
-use crate::scene::{self, crew::Crew};
+use crate::scene::{self, pilot_kind::PilotKind};
 use crate::sim::SimulationPlugins;
 use crate::sim::replay::Replay;
 use interface::{InterfacePlugin, mode, present_mode};
@@ -42,7 +42,7 @@ use interface::{InterfacePlugin, mode, present_mode};
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Who flies from the start instead of the player.
-    pub crew: Option<Crew>,
+    pub pilot: Option<PilotKind>,
     /// Size of the window, in pixels.
     pub size: Option<[u32; 2]>,
     /// Closes after so many frames.
@@ -63,7 +63,7 @@ pub struct Options {
 
 /// What the game is drawn on.
 #[derive(Clone, Debug)]
-pub enum Surface {
+pub enum OutputSurface {
     /// A window.
     Window,
     /// A picture of this size in pixels, for whoever looks at it without a display.
@@ -73,7 +73,7 @@ pub enum Surface {
 /// Opens the window and plays until it closes.
 pub fn run(session: Session, options: &Options) -> AppExit {
     let (choices, said) = Choices::load();
-    let mut app = app(session, options, Surface::Window, choices);
+    let mut app = app(session, options, OutputSurface::Window, choices);
     if let Some(text) = said {
         app.insert_resource(Notice { text, until: 15.0, share: None });
     }
@@ -82,7 +82,7 @@ pub fn run(session: Session, options: &Options) -> AppExit {
 
 /// Plays without a display, on a picture that nobody sees, until the frames are drawn: to measure.
 pub fn run_unseen(session: Session, options: &Options, size: [u32; 2]) -> AppExit {
-    let mut app = app(session, options, Surface::Picture(size), Choices::default());
+    let mut app = app(session, options, OutputSurface::Picture(size), Choices::default());
     app.finish();
     app.cleanup();
     loop {
@@ -94,7 +94,7 @@ pub fn run_unseen(session: Session, options: &Options, size: [u32; 2]) -> AppExi
 }
 
 /// The whole game, drawn on `surface`, with these choices over the session's configuration.
-pub fn app(mut session: Session, options: &Options, surface: Surface, choices: Choices) -> App {
+pub fn app(mut session: Session, options: &Options, surface: OutputSurface, choices: Choices) -> App {
     let file_config = session.config.clone();
     choices.over(&mut session.config);
     session.put_set();
@@ -115,11 +115,11 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
         ..default()
     };
     // Pictures that nobody waits for are drawn at their finest.
-    let governed = matches!(surface, Surface::Window) || options.timings.is_some();
+    let governed = matches!(surface, OutputSurface::Window) || options.timings.is_some();
     let window = WindowPlugin { primary_window: Some(window(&session, options, &surface)), ..default() };
     match surface {
-        Surface::Window => app.add_plugins(DefaultPlugins.set(window).set(log)),
-        Surface::Picture(_) => app.add_plugins(DefaultPlugins.build().disable::<WinitPlugin>().disable::<LogPlugin>().set(window)),
+        OutputSurface::Window => app.add_plugins(DefaultPlugins.set(window).set(log)),
+        OutputSurface::Picture(_) => app.add_plugins(DefaultPlugins.build().disable::<WinitPlugin>().disable::<LogPlugin>().set(window)),
     };
     app.add_plugins((EguiPlugin::default(), RelativisticRenderPlugin { surroundings }))
         .add_plugins((
@@ -130,20 +130,20 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
             HudPlugin,
             MenusPlugin,
             OverlayPlugin,
-            InterfacePlugin { picture: if let Surface::Picture(size) = surface { Some(size) } else { None } },
+            InterfacePlugin { picture: if let OutputSurface::Picture(size) = surface { Some(size) } else { None } },
             SoundPlugin,
             focus::FocusPlugin,
             lost::LostDevicePlugin,
         ))
         .add_plugins(record::RecordPlugin { folder: options.record.clone(), frames: options.frames })
         .insert_resource(Quality::new(governed))
-        .insert_resource(PlayerState { crew: options.crew, choice, ..default() })
+        .insert_resource(PlayerState { pilot: options.pilot, choice, ..default() })
         .insert_resource(catalogue)
         .insert_resource(choices)
         .insert_resource(FileConfig(file_config))
         .insert_resource(session);
     if let Some((file, started)) = &options.timings {
-        let waits = matches!(surface, Surface::Picture(_));
+        let waits = matches!(surface, OutputSurface::Picture(_));
         app.add_plugins(timings::TimingsPlugin { file: file.clone(), started: *started, waits });
     }
     if warns {
@@ -159,17 +159,17 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
 }
 
 /// The window as the settings and the command line have it.
-fn window(session: &Session, options: &Options, surface: &Surface) -> Window {
+fn window(session: &Session, options: &Options, surface: &OutputSurface) -> Window {
     let video = &session.config.video;
     let [width, height] = match surface {
-        Surface::Window => options.size.unwrap_or([video.width, video.height]),
-        Surface::Picture(size) => *size,
+        OutputSurface::Window => options.size.unwrap_or([video.width, video.height]),
+        OutputSurface::Picture(size) => *size,
     };
     Window {
         title: "Lensrunner".into(),
         resolution: (width, height).into(),
         present_mode: present_mode(video),
-        mode: if matches!(surface, Surface::Window) { mode(video) } else { WindowMode::Windowed },
+        mode: if matches!(surface, OutputSurface::Window) { mode(video) } else { WindowMode::Windowed },
         ..default()
     }
 }

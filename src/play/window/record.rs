@@ -10,7 +10,7 @@ use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 use crate::picture_file::png;
 use crate::play::hud::notice::Notice;
 use crate::play::picture::snapshot::snapshot;
-use crate::play::picture::staging::Staged;
+use crate::play::picture::stage_loading::CurrentStage;
 use crate::play::window::pictures::{folders, save_new, stem};
 use crate::sim::snapshot::Snapshot;
 use crate::user_file::write_whole;
@@ -50,8 +50,8 @@ impl Plugin for RecordPlugin {
         app.insert_resource(VideoRecording { folder: self.folder.clone(), frames: self.frames, drawn: 0 })
             .insert_resource(News { sender, receiver: Mutex::new(receiver) })
             .init_resource::<Wanted>()
-            .add_systems(Update, tell)
-            .add_systems(Last, (take_wanted, record.run_if(resource_exists::<Staged>)).chain());
+            .add_systems(Update, notify)
+            .add_systems(Last, (take_wanted, record.run_if(resource_exists::<CurrentStage>)).chain());
     }
 }
 
@@ -59,7 +59,7 @@ impl Plugin for RecordPlugin {
 const SHOWN: f64 = 4.0;
 
 /// Says, on the screen and in the log, where a picture is or why there is none.
-fn tell(news: Res<News>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
+fn notify(news: Res<News>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
     let Ok(receiver) = news.receiver.lock() else { return };
     for result in receiver.try_iter() {
         let text = match &result {

@@ -10,7 +10,7 @@ use bevy::render::{Extract, ExtractSchedule, Render, RenderApp, RenderSystems};
 
 use crate::play::menus::screens::Screen;
 use crate::play::picture::quality::Quality;
-use crate::play::picture::staging::Staged;
+use crate::play::picture::stage_loading::CurrentStage;
 use crate::play::window::record::record;
 use crate::sim::Clock;
 
@@ -72,13 +72,13 @@ const PLAYING: &str = "playing";
 
 fn look(
     mut showing: ResMut<Showing>,
-    staged: Extract<Option<Res<Staged>>>,
+    current: Extract<Option<Res<CurrentStage>>>,
     screen: Extract<Res<State<Screen>>>,
     clock: Extract<Option<Res<Clock>>>,
     quality: Extract<Res<Quality>>,
 ) {
     let what = match screen.get() {
-        _ if staged.is_none() => LOADING,
+        _ if current.is_none() => LOADING,
         Screen::Playing => PLAYING,
         _ => "menu",
     };

@@ -4,7 +4,7 @@ use crate::render::aurora::shift::SHIFTS;
 use bytemuck::{Pod, Zeroable};
 use glam::DVec2;
 
-use crate::render::aurora::shift::Shift;
+use crate::render::aurora::shift::ImageShift;
 
 /// `Lines` in shaders/aurora/levels/lit_corners.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -24,7 +24,7 @@ pub struct Colours {
 
 impl Colours {
     /// From the frequency ratios over the image and a function `of` that gives the lines' colours at a ratio.
-    pub fn new(shift: &Shift, of: impl Fn(f64) -> [[f32; 4]; 4]) -> Colours {
+    pub fn new(shift: &ImageShift, of: impl Fn(f64) -> [[f32; 4]; 4]) -> Colours {
         let [least, greatest] = shift.range;
         let ratio = |k: usize| least + (greatest - least) * k as f64 / (SHIFTS - 1) as f64;
         let [middle, right, up] = shift.steps().map(|value| value as f32);

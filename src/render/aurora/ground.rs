@@ -12,7 +12,7 @@ use crate::scene::aurora::curve::Curve;
 use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT};
 use crate::scene::aurora::ground::GroundMap;
 use crate::scene::aurora::lines::kilorayleigh_xyz;
-use crate::scene::aurora::motion::Motion;
+use crate::scene::aurora::motion::AuroraMotion;
 use crate::scene::aurora::quantiles::{FLUXES, KINDS, PARTS, Quantiles, ROWS};
 use crate::scene::blackbody::xyz_to_rgb;
 
@@ -135,7 +135,7 @@ pub struct Ground {
 
 impl Ground {
     /// For curtains that move about these curves.
-    pub fn new(curves: &[Curve], motion: &Motion, glow: Glow) -> Ground {
+    pub fn new(curves: &[Curve], motion: &AuroraMotion, glow: Glow) -> Ground {
         Ground { map: GroundMap::new(curves, glow.height), areas: areas(curves, motion), glow, kept: [None, None], texels: Arc::default() }
     }
 
@@ -198,7 +198,7 @@ impl Ground {
 
 /// For each node of a row the area of curtain that it stands for, in km²: its share of the length at rest, half as much at the ends of a
 /// curve. The extra nodes beyond the ends stand for none.
-fn areas(curves: &[Curve], motion: &Motion) -> Vec<f64> {
+fn areas(curves: &[Curve], motion: &AuroraMotion) -> Vec<f64> {
     let mut areas = Vec::new();
     for ((window, curve), length) in motion.starts().windows(2).zip(curves).zip(motion.lengths()) {
         let nodes = window[1] - window[0];

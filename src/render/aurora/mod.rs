@@ -4,17 +4,17 @@
 //! [`AuroraAnimation`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes.
 
 mod animation;
+pub mod capacities;
 mod colours;
 pub mod ground;
 mod levels;
 pub mod node_history;
+pub mod occlusion;
 mod pass;
 mod pipelines;
 pub mod ration;
-pub mod rooms;
 pub mod shift;
 pub mod sight;
-pub mod veil;
 
 pub use animation::planet_view::planet_history;
 pub use animation::streaks::{RED_EVERY, SMOOTH};
@@ -37,7 +37,7 @@ pub struct AuroraSettings {
     pub row_nodes: u32,
     pub newest_row: u32,
     pub segments: u32,
-    pub room: u32,
+    pub capacity: u32,
     pub flags: u32,
     pub row_seconds: f32,
     pub ahead: f32,

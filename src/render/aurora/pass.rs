@@ -7,11 +7,11 @@ use wgpu::BufferUsages;
 use crate::lensing::methods::Method;
 use crate::render::Gpu;
 use crate::render::aurora::animation::AuroraFrame;
+use crate::render::aurora::capacities::{DRAWS_BYTES, LIT_TILES, StrokeCapacities};
 use crate::render::aurora::colours::Colours;
 use crate::render::aurora::levels::{Levels, PYRAMID, Ranges};
 use crate::render::aurora::node_history::{NodeHistory, ROWS};
 use crate::render::aurora::pipelines::{Layouts, Pipelines};
-use crate::render::aurora::rooms::{DRAWS_BYTES, LIT_TILES, Rooms};
 use crate::render::aurora::{AuroraSettings, BOTH_POLES, Segment};
 use crate::render::gpu::layout::{Growing, bind, buffer, compute_of};
 use crate::render::gpu::shaders::Pass;
@@ -30,7 +30,7 @@ pub const REFERENCE_BYTES: u64 = 144;
 pub const STROKE_BYTES: u64 = 40;
 
 /// Number of heights at which the middle of a part of a curtain is projected, for streaks of so many chords. As in streaks.wgsl.
-fn reference_room(chords: u32) -> u32 {
+fn reference_capacity(chords: u32) -> u32 {
     3 * chords + 2
 }
 
@@ -57,22 +57,22 @@ pub struct Aurora {
     draws: wgpu::Buffer,
     colours: [wgpu::Buffer; ORDERS],
     levels: Option<Levels>,
-    groups: Option<VeilGroups>,
+    groups: Option<AuroraGroups>,
     /// For each image of the prepared frame: the pixels on which it may be (left, top, width, height), and whether it is behind the disk.
     images: Vec<([u32; 4], bool)>,
     /// In the prepared frame: streaks, chords of a streak, image orders. Zero orders: nothing is drawn.
     drawn: [u32; 3],
     /// Points that are projected in each order.
     projected: u32,
-    /// The rooms of the prepared frame.
-    rooms: Rooms,
+    /// The capacities of the prepared frame.
+    capacities: StrokeCapacities,
     /// The rows and the table that are on the GPU.
     uploaded_rows: NodeHistory,
     uploaded_falls: Option<Arc<Vec<f32>>>,
 }
 
 #[derive(Debug)]
-struct VeilGroups {
+struct AuroraGroups {
     walk: wgpu::BindGroup,
     /// One group per level.
     draw: Vec<wgpu::BindGroup>,
@@ -114,7 +114,7 @@ impl Aurora {
             images: Vec::new(),
             drawn: [0; 3],
             projected: 0,
-            rooms: Rooms::default(),
+            capacities: StrokeCapacities::default(),
             uploaded_rows: NodeHistory::default(),
             uploaded_falls: None,
         }
@@ -136,12 +136,12 @@ impl Aurora {
         let AuroraSettings { streaks, chords, .. } = settings;
         // All of them must fit into a buffer, with the quarter more that it grows by.
         let most = device.limits().max_storage_buffer_binding_size * 4 / 5 / (STROKE_BYTES * orders as u64 * 2);
-        // Rooms of coarser levels are half as large each, so all of them together are less than twice the finest.
-        settings.room = (u64::from(settings.room).min(most) as u32).next_multiple_of(8);
+        // Parts of coarser levels are half as large each, so all of them together are less than twice the finest.
+        settings.capacity = (u64::from(settings.capacity).min(most) as u32).next_multiple_of(8);
         settings.levels = settings.levels.clamp(1, PYRAMID);
-        let rooms = Rooms { finest: u64::from(settings.room), levels: settings.levels };
-        let mut replaced = rooms.levels != self.rooms.levels;
-        self.rooms = rooms;
+        let capacities = StrokeCapacities { finest: u64::from(settings.capacity), levels: settings.levels };
+        let mut replaced = capacities.levels != self.capacities.levels;
+        self.capacities = capacities;
         replaced |= self.write_rows(gpu, &frame.rows);
         // They change only with the keys of the spectrum.
         if self.uploaded_falls.as_ref().is_none_or(|falls| !Arc::ptr_eq(falls, &frame.falls)) {
@@ -150,9 +150,9 @@ impl Aurora {
         }
         replaced |= self.segments.write::<Segment>(gpu, &frame.segments);
         replaced |= self.chords.reserve(device, CHORD_END_BYTES * u64::from(streaks) * u64::from(chord_room(chords)) * orders as u64);
-        replaced |= self.strokes.reserve(device, STROKE_BYTES * rooms.all() * orders as u64);
+        replaced |= self.strokes.reserve(device, STROKE_BYTES * capacities.all() * orders as u64);
         let poles = if settings.flags & BOTH_POLES != 0 { 2 } else { 1 };
-        self.projected = settings.segments * poles * reference_room(chords);
+        self.projected = settings.segments * poles * reference_capacity(chords);
         replaced |= self.references.reserve(device, REFERENCE_BYTES * u64::from(self.projected) * orders as u64);
         if self.levels.as_ref().is_none_or(|levels| levels.size != targets.size) {
             self.levels = Some(Levels::new(gpu, targets.size));
@@ -164,7 +164,7 @@ impl Aurora {
         }
         gpu.queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
         gpu.queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&frame.instances[..orders]));
-        gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&rooms.empty(orders as u32)));
+        gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&capacities.empty(orders as u32)));
         let tile = [0, 1].map(|axis| targets.size[axis].div_ceil(LIT_TILES[axis]) as f32 * 2.0 / targets.size[axis] as f32);
         for (buffer, colours) in self.colours.iter().zip(&frame.colours) {
             let rgb = |[x, y, z, _]: [f32; 4]| {
@@ -199,7 +199,7 @@ impl Aurora {
         }
     }
 
-    fn make_groups(&self, device: &wgpu::Device) -> Option<VeilGroups> {
+    fn make_groups(&self, device: &wgpu::Device) -> Option<AuroraGroups> {
         let levels = self.levels.as_ref()?;
         let walk = [
             &self.settings, &self.instances, &self.nodes.buffer, &self.segments.buffer, &self.falls.buffer, &self.chords.buffer,
@@ -212,17 +212,17 @@ impl Aurora {
         });
         // A level, or black where it is not in use.
         let light = |level: u32| {
-            let coarse = levels.lights.get(level as usize).filter(|_| level < self.rooms.levels);
+            let coarse = levels.lights.get(level as usize).filter(|_| level < self.capacities.levels);
             wgpu::BindingResource::TextureView(coarse.unwrap_or(&levels.nothing))
         };
         let linear = || wgpu::BindingResource::Sampler(&self.linear);
-        let spread = (1..self.rooms.levels).map(|level| {
+        let spread = (1..self.capacities.levels).map(|level| {
             bind(device, "aurora spread", &self.layouts.spread, &[light(level + 1), linear(), self.draws.as_entire_binding()])
         });
         let tiles = self.colours.iter().map(|colours| {
             bind(device, "aurora tiles", &self.layouts.tiles, &[colours.as_entire_binding(), self.draws.as_entire_binding()])
         });
-        Some(VeilGroups {
+        Some(AuroraGroups {
             walk: bind(device, "aurora walk", &self.layouts.walk, &walk),
             draw: draw_strokes.collect(),
             spread: spread.collect(),
@@ -274,7 +274,7 @@ impl Aurora {
     /// The textures in which light is added up, the coarsest first, with their levels.
     pub fn levels(&self) -> impl Iterator<Item = (u32, &wgpu::TextureView)> {
         let lights = self.levels.iter().flat_map(|levels| &levels.lights);
-        (0..).zip(lights.take(self.rooms.levels as usize)).collect::<Vec<_>>().into_iter().rev()
+        (0..).zip(lights.take(self.capacities.levels as usize)).collect::<Vec<_>>().into_iter().rev()
     }
 
     /// Adds up the strokes of one image in a level, after those of coarser levels. The finest level has the frame's depth.
@@ -282,7 +282,7 @@ impl Aurora {
         let Some((bound, levels)) = self.groups.as_ref().zip(self.levels.as_ref()) else { return };
         self.within(pass, image, |part| levels.part(part, level));
         // The coarsest level has no coarser one to enlarge.
-        if level > 0 && level + 1 < self.rooms.levels {
+        if level > 0 && level + 1 < self.capacities.levels {
             pass.set_pipeline(&self.pipelines.spread);
             pass.set_bind_group(1, &bound.spread[level as usize - 1], &[]);
             let instance = 8 * image + level;
@@ -324,7 +324,7 @@ impl Aurora {
         &self.references.buffer
     }
 
-    /// Strokes of the last frame by image and level, as in [`Rooms::empty`].
+    /// Strokes of the last frame by image and level, as in [`StrokeCapacities::empty`].
     pub fn draws(&self) -> &wgpu::Buffer {
         &self.draws
     }

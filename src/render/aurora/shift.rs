@@ -4,7 +4,7 @@
 use crate::spacetime::Observer;
 use glam::{DMat3, DVec2, DVec3, Vec3Swizzles};
 
-use crate::render::instances::{View, departure};
+use crate::render::instances::{InstanceView, departure};
 use crate::sim::History;
 use crate::sim::history::Sample;
 use crate::spacetime::light::{self, Branch, Order};
@@ -30,7 +30,7 @@ const LONG: f64 = 0.850_650_808_352_039_9;
 
 /// ν_observed/ν_emitted over an image, as a linear function of screen coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shift {
+pub struct ImageShift {
     /// In the middle of the screen.
     pub middle: f64,
     /// By the coordinates of the screen, each from −1 to 1, right and up.
@@ -39,17 +39,17 @@ pub struct Shift {
     pub range: [f64; 2],
 }
 
-impl Shift {
+impl ImageShift {
     /// The same everywhere.
-    pub fn even(g: f64) -> Shift {
-        Shift { middle: g, slope: DVec2::ZERO, range: [g, g] }
+    pub fn even(g: f64) -> ImageShift {
+        ImageShift { middle: g, slope: DVec2::ZERO, range: [g, g] }
     }
 
     /// For the image of `order` of a planet with this radius (r_s) and history, fitted to points all over its visible part. None if too few
     /// are seen. If neither colour nor brightness depend on the ratio, it is 1 everywhere.
-    pub fn new(view: &View, time: f64, history: &History, order: Order, radius: f64) -> Option<Shift> {
+    pub fn new(view: &InstanceView, time: f64, history: &History, order: Order, radius: f64) -> Option<ImageShift> {
         if !view.settings.doppler && !view.settings.beaming {
-            return Some(Shift::even(1.0));
+            return Some(ImageShift::even(1.0));
         }
         let aspect = view.aspect.filter(|_| view.settings.method.bends)?;
         let mut began = departure(view, time, history, order)?;
@@ -175,7 +175,7 @@ fn on_grid(camera: &Observer, aspect: f64, planet: &Sample, radius: f64) -> Vec<
 }
 
 /// The linear function that fits the ratios at points on the screen best, by least squares.
-fn fitted(seen: &[(DVec2, f64)]) -> Option<Shift> {
+fn fitted(seen: &[(DVec2, f64)]) -> Option<ImageShift> {
     let count = seen.len() as f64;
     let mean = seen.iter().map(|(_, ratio)| ratio).sum::<f64>() / count;
     if seen.is_empty() || !mean.is_finite() {
@@ -194,5 +194,5 @@ fn fitted(seen: &[(DVec2, f64)]) -> Option<Shift> {
     let scale = square.y_axis.y.max(square.z_axis.z).max(1e-300);
     let flat = seen.len() < 3 || square.determinant() < 1e-9 * count * scale * scale;
     let plane = if flat { DVec3::new(mean, 0.0, 0.0) } else { square.inverse() * right };
-    Some(Shift { middle: plane.x, slope: DVec2::new(plane.y, plane.z), range })
+    Some(ImageShift { middle: plane.x, slope: DVec2::new(plane.y, plane.z), range })
 }

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use crate::render::instances::visibility::cone_may_be_seen;
-use crate::render::instances::{View, departure};
+use crate::render::instances::{InstanceView, departure};
 use crate::sim::History;
 use crate::spacetime::light::Order;
 
@@ -31,7 +31,7 @@ const SEARCH: u32 = 5;
 
 /// Whether any part of the image of `order` of a ball may be on the screen at T = `time`. The ball has the radius `reach` (r_s) and moves
 /// with `history`. In doubt the answer is yes.
-pub fn may_be_seen(view: &View, time: f64, history: &History, order: Order, reach: f64) -> bool {
+pub fn may_be_seen(view: &InstanceView, time: f64, history: &History, order: Order, reach: f64) -> bool {
     let Some((aspect, began)) = view.aspect.zip(departure(view, time, history, order)) else { return true };
     let camera = view.camera;
     let amid = (history.at(time).position - camera.position).length() < AMID * reach;

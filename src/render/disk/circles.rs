@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 
 use crate::lensing::Slice;
 use crate::lensing::lookup::lens_lookup_at;
-use crate::render::disk::drawn::Disk;
+use crate::render::disk::drawn::DrawnDisk;
 use crate::render::disk::types::Bend;
 use crate::scene::disk::radial::LAST_ORBIT;
 use crate::scene::disk::{LEAST_COSINE, PATTERN_HEIGHT};
@@ -73,7 +73,7 @@ const LEAST_SHARE: f64 = 0.3;
 /// The radii on offer, ascending, in r_s: the circles of the arcs; more between them where these are few; and from near more in the falling
 /// gas. There the lag of the pattern grows as the root of the distance from the last stable orbit, so a straight line between two circles
 /// of the arcs would be off by up to 0.1 rad. At that orbit the pattern has a kink.
-pub fn radii(disk: &Disk, close: bool) -> Vec<f64> {
+pub fn radii(disk: &DrawnDisk, close: bool) -> Vec<f64> {
     let mut radii = disk.arcs.circles.clone();
     let [start, _] = disk.gas.extent();
     if close && disk.config.gap <= 0.0 && start < LAST_ORBIT {
@@ -115,7 +115,7 @@ impl Circles {
 #[derive(Clone, Copy, Debug)]
 pub struct Look<'a> {
     /// The disk that is seen.
-    pub disk: &'a Disk,
+    pub disk: &'a DrawnDisk,
     /// From where.
     pub camera: &'a Observer,
     /// The lensing table for the camera's radius.
@@ -296,7 +296,7 @@ impl RingBend {
     }
 
     /// For the shaders.
-    pub fn told(&self) -> Bend {
+    pub fn for_gpu(&self) -> Bend {
         let [light, other_light] = self.light.map(|light| light as f32);
         Bend { height: self.height as f32, light, other_light, depth: self.depth as f32 }
     }

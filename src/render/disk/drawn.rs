@@ -11,7 +11,7 @@ const RADII: usize = 512;
 
 /// A disk ready to be drawn.
 #[derive(Clone, Debug)]
-pub struct Disk {
+pub struct DrawnDisk {
     /// The gas.
     pub gas: Gas,
     /// Its arcs.
@@ -22,12 +22,12 @@ pub struct Disk {
     pub min_width: f64,
 }
 
-impl Disk {
+impl DrawnDisk {
     /// The disk of `disk` around the hole of `config`.
-    pub fn new(disk: config::Disk, config: &GameConfig) -> Disk {
+    pub fn new(disk: config::Disk, config: &GameConfig) -> DrawnDisk {
         let gas = Gas::new(&disk, config.hole.mass_solar);
         let arcs = Arcs::new(&disk, &gas.radial);
-        Disk { gas, arcs, config: disk, min_width: config.render.min_width }
+        DrawnDisk { gas, arcs, config: disk, min_width: config.render.min_width }
     }
 
     /// The gas at radius `r`, in r_s.

@@ -22,7 +22,7 @@ use crate::render::Gpu;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::layout::{Slot, bind, buffer, layout, storage};
 use arcs::ArcPass;
-pub use drawn::Disk;
+pub use drawn::DrawnDisk;
 use polygons::PolygonPass;
 use sprites::SpritePass;
 use textures::Textures;
@@ -40,7 +40,7 @@ enum Representation {
 /// The passes of the disk, made when a scene first has one.
 #[derive(Debug)]
 pub struct DiskPasses {
-    disk: Disk,
+    disk: DrawnDisk,
     frame: wgpu::Buffer,
     gas_layout: wgpu::BindGroupLayout,
     gas_group: wgpu::BindGroup,
@@ -54,7 +54,7 @@ pub struct DiskPasses {
 
 impl DiskPasses {
     /// Compiles the passes.
-    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, disk: Disk) -> DiskPasses {
+    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, disk: DrawnDisk) -> DiskPasses {
         use wgpu::BindingResource::TextureView;
         let textures = Textures::new(gpu);
         let slots = [Slot::Uniform, Slot::Texture, Slot::Texture];
@@ -71,7 +71,7 @@ impl DiskPasses {
     }
 
     /// Takes up another disk and its representation.
-    pub fn set(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, disk: Disk) {
+    pub fn set(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, disk: DrawnDisk) {
         let radial = || storage(gpu, "radial", &disk.radial_table());
         self.representation = match disk.config.representation.as_str() {
             kind @ ("polygons" | "polygons-at-rest") => {
@@ -87,7 +87,7 @@ impl DiskPasses {
     }
 
     /// The disk that is drawn.
-    pub fn disk(&self) -> &Disk {
+    pub fn disk(&self) -> &DrawnDisk {
         &self.disk
     }
 

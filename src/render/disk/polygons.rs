@@ -15,17 +15,17 @@ use crate::render::geometry::lists::BodyLists;
 use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, layout, module, raster};
 use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::shaders::Pass;
-use crate::render::gpu::types::placed::{HELD, TWO_SIDED};
+use crate::render::gpu::types::placed::{STATIC, TWO_SIDED};
 use crate::render::gpu::types::{ARGUMENTS_OPAQUE, Instance};
 use crate::render::instances::{Placed, place_by_axis};
 use crate::render::models::{ModelRange, ModelSet, Models};
 use crate::scene::disk::polygons::{Ring, model, rings};
 
-use crate::render::disk::drawn::Disk;
+use crate::render::disk::drawn::DrawnDisk;
 use crate::render::disk::types::Turning;
 
 /// Two-sided triangles, with the frequency ratio of static observers; the gas's own motion comes in with its colour.
-const HELD_TWO_SIDED: u32 = HELD | TWO_SIDED;
+const STATIC_TWO_SIDED: u32 = STATIC | TWO_SIDED;
 
 /// Stages of geometry of their own, and the draw.
 #[derive(Debug)]
@@ -73,7 +73,7 @@ impl PolygonPass {
         frame_layout: &wgpu::BindGroupLayout,
         gas_layout: &wgpu::BindGroupLayout,
         radial: wgpu::Buffer,
-        disk: &Disk,
+        disk: &DrawnDisk,
         turn: bool,
     ) -> PolygonPass {
         let device = &gpu.device;
@@ -127,7 +127,7 @@ impl PolygonPass {
             turn_x: [1.0, 0.0, 0.0],
             turn_y: [0.0, 1.0, 0.0],
             turn_z: [0.0, 0.0, 1.0],
-            flags: HELD_TWO_SIDED,
+            flags: STATIC_TWO_SIDED,
             ..Instance::default()
         };
         place_by_axis(&mut unplaced, &input.camera, height * DVec3::Z, self.extent[1] + elapsed);

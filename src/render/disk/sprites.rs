@@ -9,7 +9,7 @@ use crate::render::gpu::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute
 use crate::render::gpu::shaders::Pass;
 use crate::scene::disk::sprites::Sprites;
 
-use crate::render::disk::drawn::Disk;
+use crate::render::disk::drawn::DrawnDisk;
 use crate::render::disk::types::{SEEN_SPRITE_BYTES, Sprite, SpriteImage};
 use crate::render::disk::view::DiskView;
 
@@ -44,7 +44,7 @@ impl SpritePass {
         gas_layout: &wgpu::BindGroupLayout,
         frame: &wgpu::Buffer,
         radial: &wgpu::Buffer,
-        disk: &Disk,
+        disk: &DrawnDisk,
     ) -> SpritePass {
         use Slot::{Read, Uniform, Write};
         let device = &gpu.device;

@@ -11,7 +11,7 @@ use crate::scene::disk::radial::smoothstep;
 use crate::scene::disk::{DISK_UNIT, OFFSET_STEP, RENEWAL, SHEARED};
 
 use crate::render::disk::circles::{AZIMUTHS, Circles, FROM_FAR, FROM_NEAR, Look, RingBend, SeenCircle, azimuth, pixel_angle, radii};
-use crate::render::disk::drawn::Disk;
+use crate::render::disk::drawn::DrawnDisk;
 use crate::render::disk::sigma::sigma;
 use crate::render::disk::types::{Bend, Circle, DiskFrame, Ring};
 
@@ -57,7 +57,7 @@ pub struct DiskView {
 
 impl DiskView {
     /// For the camera and time of `input` and a picture `width` pixels wide.
-    pub fn new(disk: &Disk, input: &FrameInput, slice: &Slice, width: u32) -> DiskView {
+    pub fn new(disk: &DrawnDisk, input: &FrameInput, slice: &Slice, width: u32) -> DiskView {
         let camera = &input.camera;
         let plane = Plane::seen_by(camera);
         let mut view = DiskView {
@@ -125,13 +125,13 @@ impl DiskView {
             }
         }
         self.circles.extend(own);
-        self.bends.extend(rows.bends.iter().flatten().map(RingBend::told));
+        self.bends.extend(rows.bends.iter().flatten().map(RingBend::for_gpu));
         self.rings.extend(rows.pairs.into_iter().map(|[a, b]| Ring { inner: first + a, outer: first + b, order, unused: 0 }));
     }
 
     /// What the shaders are told, once all images are added. The camera's time is counted from the first generation of
     /// streaks that can be seen.
-    fn frame(&self, disk: &Disk, input: &FrameInput, plane: &Plane) -> DiskFrame {
+    fn frame(&self, disk: &DrawnDisk, input: &FrameInput, plane: &Plane) -> DiskFrame {
         let (time, settings) = (input.time, &input.settings);
         let [_, end] = disk.gas.extent();
         let nearest = (plane.l - end).max(0.0);
@@ -203,7 +203,7 @@ impl Plane {
 }
 
 /// Orders up to this one are drawn as from near, with fine structure; 0 from far.
-fn close_orders(disk: &Disk, camera: &Observer) -> u32 {
+fn close_orders(disk: &DrawnDisk, camera: &Observer) -> u32 {
     let [_, end] = disk.gas.extent();
     let near = |limit: f64| camera.position.z.abs() < limit && camera.radius() < end + limit;
     if near(CLOSE_BEHIND) { 3 } else { u32::from(near(CLOSE)) }
@@ -211,7 +211,7 @@ fn close_orders(disk: &Disk, camera: &Observer) -> u32 {
 
 /// For a disk with gaps between its rings: for each circle the middle of the gap beside it, in r_s. The circle is moved there where the gap
 /// is too narrow to be seen. The outermost circle goes to the edge of the disk.
-fn gap_middles(disk: &Disk) -> Vec<f64> {
+fn gap_middles(disk: &DrawnDisk) -> Vec<f64> {
     let mut radii = disk.arcs.circles.clone();
     for pair in disk.arcs.rings.windows(2) {
         let [a, b] = [pair[0][1] as usize, pair[1][0] as usize];
@@ -284,7 +284,7 @@ fn widths(camera: &Observer, inner: &SeenCircle, outer: &SeenCircle, width: u32)
 }
 
 /// The cuts to use: so many that arcs are long enough to be told apart.
-fn chosen_cuts(disk: &Disk, camera: &Observer, width: u32) -> Vec<f64> {
+fn chosen_cuts(disk: &DrawnDisk, camera: &Observer, width: u32) -> Vec<f64> {
     let all = disk.arcs.cuts.len() - 1;
     let [_, end] = disk.gas.extent();
     let l = camera.radius();
@@ -312,7 +312,7 @@ fn sigmas(cuts: &[f64], origin: f64, height: f64) -> Vec<f32> {
 }
 
 /// A circle that counts in the mean gas of a thin image. Light of the third image crosses the second at the radius `through`.
-fn sample(disk: &Disk, r: f64, through: Option<f64>) -> Circle {
+fn sample(disk: &DrawnDisk, r: f64, through: Option<f64>) -> Circle {
     let nearer = disk.gas_at(through.unwrap_or(r));
     Circle {
         gas: disk.gas_at(r),

@@ -3,7 +3,7 @@
 use crate::render::gpu::types::placed::THIN;
 use crate::render::gpu::types::{Capacity, Chunk, Counters, Instance, SeenVertex};
 use crate::render::instances::Placed;
-use crate::render::instances::swing::Node;
+use crate::render::instances::local_motion::MotionNode;
 
 /// Threads of a workgroup; `@workgroup_size` of the stages.
 const LANES: u32 = 64;
@@ -80,7 +80,7 @@ impl BodyLists {
             // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
             counters: Counters { vertices, model_vertices: vertices, turn: 1, caught: refused, calmed, ..Counters::default() },
             thin_across,
-            capacity: room(budget, vertices, triangles, most),
+            capacity: capacity_for(budget, vertices, triangles, most),
         }
     }
 }
@@ -88,13 +88,13 @@ impl BodyLists {
 /// Room beyond that of the models for `budget` vertices of the mesh stage. A vertex is in at most two triangles of three indices; blocks of
 /// the mesh stage have about ten vertices. A fifth of the indices is enough for every triangle of the models. No buffer is larger than
 /// `most` bytes, the device's limit, as long as the models fit; seen vertices take the most.
-fn room(budget: u32, vertices: u32, triangles: u32, most: u64) -> Capacity {
+fn capacity_for(budget: u32, vertices: u32, triangles: u32, most: u64) -> Capacity {
     let budget = budget.min(((most / size_of::<SeenVertex>() as u64) as u32).saturating_sub(vertices));
     Capacity { vertices: vertices + budget, indices: 3 * (2 * budget + 5 * triangles), work: budget / 10, thin: 3 * (budget / 3) }
 }
 
 /// The texels of the table of instances: the instances, then the nodes of each, whose place is told to it.
-fn instance_table<'a>(instances: &mut [Instance], nodes: impl Iterator<Item = &'a [Node]>) -> Vec<[f32; 4]> {
+fn instance_table<'a>(instances: &mut [Instance], nodes: impl Iterator<Item = &'a [MotionNode]>) -> Vec<[f32; 4]> {
     let mut first = size_of_val(instances) / size_of::<[f32; 4]>();
     let mut behind: Vec<[f32; 4]> = Vec::new();
     for (instance, nodes) in instances.iter_mut().zip(nodes) {

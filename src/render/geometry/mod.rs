@@ -5,7 +5,7 @@
 
 mod ground;
 pub mod lists;
-mod stages;
+mod pipelines;
 pub mod thin;
 
 use crate::render::gpu::targets::LAYERS_FORMAT;
@@ -13,7 +13,7 @@ use wgpu::{BufferUsages, ShaderStages};
 
 use ground::GroundBuffers;
 use lists::BodyLists;
-use stages::{PipelineCache, PipelineInputs};
+use pipelines::{PipelineCache, PipelineInputs};
 
 use crate::lensing::methods::Method;
 use crate::render::Gpu;
@@ -32,7 +32,7 @@ const REFINE_PASSES: u32 = 25;
 pub struct Geometry {
     group_layout: wgpu::BindGroupLayout,
     draw_layout: wgpu::BindGroupLayout,
-    stages: PipelineCache,
+    pipelines: PipelineCache,
     draws: Draws,
     /// Those of the prepared frame.
     lists: BodyLists,
@@ -145,7 +145,7 @@ impl Geometry {
             arguments: arguments_layout.clone(),
             worldlines,
         };
-        let stages = PipelineCache::new(inputs, (Method::default(), false));
+        let pipelines = PipelineCache::new(inputs, (Method::default(), false));
         let storage = BufferUsages::STORAGE;
         let arguments = buffer(device, "arguments", types::ARGUMENTS_BYTES, storage | BufferUsages::INDIRECT);
         let arguments_group = bind(device, "arguments", &arguments_layout, &[arguments.as_entire_binding()]);
@@ -153,7 +153,7 @@ impl Geometry {
             group_layout,
             draws: Draws::new(device, frame_layout, &draw_layout),
             draw_layout,
-            stages,
+            pipelines,
             lists: BodyLists::default(),
             instances: TableTexture::new(device, "instances", true),
             chunks: ["vertex chunks", "edge chunks", "triangle chunks"].map(|label| TableTexture::new(device, label, true)),
@@ -174,12 +174,12 @@ impl Geometry {
 
     /// Takes the stages of this method of projection, for a camera inside the horizon or outside; compiles them if need be.
     pub fn set_method(&mut self, method: Method, inside: bool) {
-        self.stages.choose((method, inside));
+        self.pipelines.choose((method, inside));
     }
 
     /// The camera may soon be on the other side of the horizon: compiles its stages in the background.
     pub fn precompile(&mut self, method: Method, inside: bool) {
-        self.stages.precompile((method, inside));
+        self.pipelines.precompile((method, inside));
     }
 
     /// Whether nothing is placed in the prepared frame: there is nothing to do or to draw.
@@ -299,33 +299,33 @@ impl Geometry {
 
     /// Stage 1: model vertices.
     pub fn vertices(&self, pass: &mut wgpu::ComputePass) {
-        self.stage(pass, &self.stages.now().vertices, 0);
+        self.stage(pass, &self.pipelines.now().vertices, 0);
     }
 
     /// Stage 2: model edges.
     pub fn edges(&self, pass: &mut wgpu::ComputePass) {
-        self.stage(pass, &self.stages.now().edges, 1);
+        self.stage(pass, &self.pipelines.now().edges, 1);
     }
 
     /// Stage 3: the object stage.
     pub fn triangles(&self, pass: &mut wgpu::ComputePass) {
-        self.stage(pass, &self.stages.now().triangles, 2);
+        self.stage(pass, &self.pipelines.now().triangles, 2);
     }
 
     /// Stage 4: splitting.
     pub fn refine(&self, pass: &mut wgpu::ComputePass) {
         for _ in 0..REFINE_PASSES {
-            self.single(pass, &self.stages.now().next_pieces);
-            self.indirect(pass, &self.stages.now().refine, types::ARGUMENTS_REFINE);
+            self.single(pass, &self.pipelines.now().next_pieces);
+            self.indirect(pass, &self.pipelines.now().refine, types::ARGUMENTS_REFINE);
         }
-        self.single(pass, &self.stages.now().finish);
+        self.single(pass, &self.pipelines.now().finish);
     }
 
     /// Stage 5: the mesh stage.
     pub fn mesh(&self, pass: &mut wgpu::ComputePass) {
-        self.indirect(pass, &self.stages.now().mesh_vertices, types::ARGUMENTS_MESH_VERTICES);
-        self.indirect(pass, &self.stages.now().mesh_triangles, types::ARGUMENTS_MESH);
-        self.single(pass, &self.stages.now().finish_thin);
+        self.indirect(pass, &self.pipelines.now().mesh_vertices, types::ARGUMENTS_MESH_VERTICES);
+        self.indirect(pass, &self.pipelines.now().mesh_triangles, types::ARGUMENTS_MESH);
+        self.single(pass, &self.pipelines.now().finish_thin);
     }
 
     /// Takes a pipeline and the vertices that it draws; false if there is nothing, and the arguments are from another frame.

@@ -58,16 +58,16 @@ impl ThinLists {
         }
     }
 
-    /// Makes room for `room` thin triangles in a picture of `size` pixels.
-    pub fn prepare(&mut self, gpu: &Gpu, room: u32, size: [u32; 2]) {
+    /// Makes room for `capacity` thin triangles in a picture of `size` pixels.
+    pub fn prepare(&mut self, gpu: &Gpu, capacity: u32, size: [u32; 2]) {
         let device = &gpu.device;
         self.count = tiles(size);
-        let mut replaced = self.lists.reserve(device, 4 * u64::from(CROSSINGS) * u64::from(room));
+        let mut replaced = self.lists.reserve(device, 4 * u64::from(CROSSINGS) * u64::from(capacity));
         replaced |= self.tiles.reserve(device, 8 * u64::from(self.count));
         if replaced {
             self.groups = None;
         }
-        let triangles = (0..CROSSINGS).flat_map(|crossings| [0, 1, crossings * room, 0, 0]);
+        let triangles = (0..CROSSINGS).flat_map(|crossings| [0, 1, crossings * capacity, 0, 0]);
         let draws: Vec<u32> = triangles.chain([6, 0, 0, 0]).collect();
         gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&draws));
     }

@@ -72,13 +72,14 @@ impl Watch {
     fn over(device: &wgpu::Device) -> Watch {
         let watch = Watch::default();
         let (lost, wrong) = (watch.clone(), watch.clone());
-        device.set_device_lost_callback(move |reason, message| lost.say(format!("the graphics device was lost ({reason:?}): {message}")));
-        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| wrong.say(error.to_string())));
+        device
+            .set_device_lost_callback(move |reason, message| lost.report(format!("the graphics device was lost ({reason:?}): {message}")));
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| wrong.report(error.to_string())));
         watch
     }
 
     /// Keeps the first complaint, and logs it.
-    fn say(&self, what: String) {
+    fn report(&self, what: String) {
         let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if first.is_none() {
             bevy::log::error!("{what}");

@@ -1,7 +1,7 @@
 //! The modules of `shaders/` that passes import, and the composer that joins them (naga_oil).
 //!
 //! A module's import path is its place in the folder: `lensrunner::lensing::lookup` is `shaders/lensing/lookup.wgsl`. What is chosen for a
-//! pass has a path of its own, under which one file of several is put in: `lensrunner::chosen::method`, `lensrunner::chosen::held`,
+//! pass has a path of its own, under which one file of several is put in: `lensrunner::chosen::method`, `lensrunner::chosen::static_body`,
 //! `lensrunner::chosen::worldlines`.
 
 use std::collections::HashMap;
@@ -107,7 +107,7 @@ fn import_path((_, source): File) -> &'static str {
 
 /// All modules by their import paths, each after those that it imports.
 fn modules(worldlines: Worldlines, method: Method) -> Vec<(&'static str, File)> {
-    let held = if method.bends { file!("method/held.wgsl") } else { file!("method/at_rest.wgsl") };
+    let static_body = if method.bends { file!("method/static_body.wgsl") } else { file!("method/at_rest.wgsl") };
     let worldlines = match worldlines {
         Worldlines::Bodies => file!("instances/recorded.wgsl"),
         Worldlines::Even => file!("instances/even.wgsl"),
@@ -127,9 +127,9 @@ fn modules(worldlines: Worldlines, method: Method) -> Vec<(&'static str, File)> 
         own(file!("lensing/exact.wgsl")),
         own(file!("lensing/static_ray.wgsl")),
         ("lensrunner::chosen::method", method.shader),
-        ("lensrunner::chosen::held", held),
+        ("lensrunner::chosen::static_body", static_body),
         own(file!("instances/instance.wgsl")),
-        own(file!("instances/swing.wgsl")),
+        own(file!("instances/local_motion.wgsl")),
         ("lensrunner::chosen::worldlines", worldlines),
         own(file!("geometry/clip.wgsl")),
         own(file!("geometry/project.wgsl")),
@@ -151,7 +151,7 @@ fn modules(worldlines: Worldlines, method: Method) -> Vec<(&'static str, File)> 
         own(file!("aurora/levels/lit_tiles.wgsl")),
         own(file!("aurora/levels/lit_corners.wgsl")),
         own(file!("aurora/levels/enlarge.wgsl")),
-        own(file!("aurora/rooms.wgsl")),
+        own(file!("aurora/capacities.wgsl")),
         own(file!("disk/types.wgsl")),
         own(file!("disk/motion.wgsl")),
         own(file!("disk/sigma.wgsl")),

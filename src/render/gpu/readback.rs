@@ -157,7 +157,7 @@ impl DeferredCopy {
 
 /// A picture on the processor.
 #[derive(Clone, Debug, Default)]
-pub struct Picture {
+pub struct ReadbackPicture {
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// After post-processing: sRGB, 4 bytes a pixel.
@@ -173,7 +173,7 @@ pub struct Picture {
     pub thin: Vec<f32>,
 }
 
-impl Picture {
+impl ReadbackPicture {
     /// Writes the finished picture (.png) or the linear light and layers (.exr).
     pub fn write(&self, path: &Path) -> Result<(), PictureError> {
         self.write_with_text(path, None)

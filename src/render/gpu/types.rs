@@ -163,14 +163,14 @@ impl Instance {
 pub mod placed {
     /// Both sides of every triangle are drawn.
     pub const TWO_SIDED: u32 = 1;
-    /// Held in place.
-    pub const HELD: u32 = 2;
+    /// Static: held in place.
+    pub const STATIC: u32 = 2;
     /// A thin image.
     pub const THIN: u32 = 4;
     /// The image by light of E < 0.
     pub const MINUS: u32 = 8;
     /// An image of a higher order of a few pixels' width, drawn out along the ring.
-    pub const NARROW: u32 = 16;
+    pub const NARROW_RING: u32 = 16;
     /// The player's own ship.
     pub const OWN: u32 = 32;
 }

@@ -12,7 +12,7 @@ use glam::{DVec3, DVec4};
 use crate::spacetime::light::Order;
 
 use crate::render::gpu::types::Cap;
-use crate::render::instances::view::{Extent, MARGIN, View};
+use crate::render::instances::view::{Extent, InstanceView, MARGIN};
 
 /// The caps of an [`Instance`](crate::render::gpu::types::Instance).
 pub type ImageBounds = [Cap; 3];
@@ -29,7 +29,7 @@ const PLACES: u32 = 32;
 /// Least radius, in r_s, of points that send light to a camera outside.
 const LEAST_RADIUS: f64 = 1.0001;
 
-impl View<'_> {
+impl InstanceView<'_> {
     /// The bounds of the image of a ball at `position` (rain axes). Its radius is `longer` times `reach` (r_s); `extent` is that for
     /// `reach`. Inside the horizon `age` decides which light is meant. No bounds if the ball holds the hole or the camera, or if part of it
     /// is not seen.

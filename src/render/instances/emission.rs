@@ -1,6 +1,6 @@
 //! When the light left by which a body is seen, as the settings ask for it.
 
-use crate::render::instances::view::View;
+use crate::render::instances::view::InstanceView;
 use crate::render::settings::Settings;
 use crate::sim::History;
 use crate::sim::sight::{emission_time, leaving};
@@ -8,7 +8,7 @@ use crate::spacetime::Observer;
 use crate::spacetime::light::Order;
 
 /// The emission time of the centre of a flying body that is seen at `time`, as the settings ask for; None if it is not seen.
-pub fn departure(view: &View, time: f64, history: &History, order: Order) -> Option<f64> {
+pub fn departure(view: &InstanceView, time: f64, history: &History, order: Order) -> Option<f64> {
     match view.settings {
         Settings { light_delay: false, .. } => Some(time),
         Settings { method, .. } if !method.bends => flat_emission_time(view.camera, time, history),

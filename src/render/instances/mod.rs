@@ -2,19 +2,19 @@
 
 mod bounds;
 mod emission;
-pub mod swing;
+pub mod local_motion;
 mod view;
 pub mod visibility;
 
 use glam::{DMat3, DQuat, DVec3};
 
 pub use emission::departure;
-pub use view::View;
+pub use view::InstanceView;
 
 use crate::lensing::lookup::OLD;
 use crate::render::gpu::types::Instance;
-use crate::render::gpu::types::placed::{HELD, MINUS, NARROW, THIN, TWO_SIDED};
-use crate::render::instances::swing::{Node, Seen, Swing};
+use crate::render::gpu::types::placed::{MINUS, NARROW_RING, STATIC, THIN, TWO_SIDED};
+use crate::render::instances::local_motion::{ImageExtent, LocalMotion, MotionNode};
 use crate::render::instances::view::MARGIN;
 use crate::render::models::ModelRange;
 use crate::render::settings::Settings;
@@ -29,10 +29,10 @@ use crate::spacetime::orbit::static_momentum;
 
 /// How an object moves.
 #[derive(Clone, Copy, Debug)]
-pub enum Motion<'a> {
-    /// Every point is held in place. `position` is on the slice T = const, `attitude` takes body to rain axes; the shape is taken on the
-    /// slice.
-    Held {
+pub enum ObjectMotion<'a> {
+    /// Static: every point is held in place. `position` is on the slice T = const, `attitude` takes body to rain axes; the shape is taken
+    /// on the slice.
+    Static {
         /// Centre, in r_s.
         position: DVec3,
         /// Body to rain axes.
@@ -66,7 +66,7 @@ pub struct DrawnObject<'a> {
     /// Coarse models, the coarsest first.
     pub stand_ins: &'a [StandIn],
     /// How it moves.
-    pub motion: Motion<'a>,
+    pub motion: ObjectMotion<'a>,
     /// Farthest point of the object from its centre, in r_s.
     pub reach: f64,
     /// Length in r_s of one unit of the model.
@@ -100,8 +100,8 @@ pub struct Placed {
     pub model: ModelRange,
     /// The instance as the shader reads it; the renderer fills in the places in its buffers.
     pub instance: Instance,
-    /// Its motion while light crosses it; none for what is held.
-    pub nodes: Vec<Node>,
+    /// Its motion while light crosses it; none for a static body.
+    pub nodes: Vec<MotionNode>,
     /// Whether it moves otherwise than is drawn: faster than any body does, or by no numbers.
     pub calmed: bool,
 }
@@ -109,17 +109,17 @@ pub struct Placed {
 /// The instances of an object in orders 1 to `orders`, seen by `camera` at the clock's `time`. An order in which the centre is not seen
 /// (it has not been reached by light yet, or never will) is left out.
 ///
-/// A camera inside the horizon sees what is held inside twice: by light of E > 0 and by light of E < 0, which left at two different times.
+/// A camera inside the horizon sees a static body inside twice: by light of E > 0 and by light of E < 0, which left at two different times.
 /// The worldline of a moving body crosses the camera's past light cone once, on one side or the other; each vertex finds out which.
-pub fn instances_of(view: &View, time: f64, object: &DrawnObject, orders: u32) -> Vec<Placed> {
+pub fn instances_of(view: &InstanceView, time: f64, object: &DrawnObject, orders: u32) -> Vec<Placed> {
     let camera = view.camera;
     let settings = view.settings;
     let image = |order: Order, branch: Branch| {
         let (emission, position, age) = match object.motion {
             // From inside the horizon higher orders show only what is outside of it.
-            Motion::Held { position, .. } if order.number() > 1 && position.length() + object.reach < 1.0 => return None,
-            Motion::Held { position, .. } => (time, position, if branch == Branch::Minus { f64::from(OLD) } else { 0.0 }),
-            Motion::Flying(history) => {
+            ObjectMotion::Static { position, .. } if order.number() > 1 && position.length() + object.reach < 1.0 => return None,
+            ObjectMotion::Static { position, .. } => (time, position, if branch == Branch::Minus { f64::from(OLD) } else { 0.0 }),
+            ObjectMotion::Flying(history) => {
                 let emission = departure(view, time, history, order).filter(|&emission| history.exists_at(emission))?;
                 (emission, history.at(emission).position, time - emission)
             }
@@ -132,9 +132,9 @@ pub fn instances_of(view: &View, time: f64, object: &DrawnObject, orders: u32) -
         if width < settings.least_width && order.number() > 1 {
             return None;
         }
-        let (mut instance, swing, longer) = match object.motion {
-            Motion::Held { attitude, .. } => (held(camera, position, attitude, object), None, 1.0),
-            Motion::Flying(history) => flying(view, history, [emission, time], order, width, object),
+        let (mut instance, local_motion, longer) = match object.motion {
+            ObjectMotion::Static { attitude, .. } => (static_instance(camera, position, attitude, object), None, 1.0),
+            ObjectMotion::Flying(history) => flying(view, history, [emission, time], order, width, object),
         };
         (instance.order, instance.object) = (u32::from(order.number()), object.id);
         place_by_axis(&mut instance, camera, position, object.reach);
@@ -155,33 +155,33 @@ pub fn instances_of(view: &View, time: f64, object: &DrawnObject, orders: u32) -
         let mut model = if object.reach < 0.1 * position.length() { object.model_for(width, is_near, settings) } else { object.model };
         set_strictness(&mut instance, view, width, order);
         instance.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
-        let (mut nodes, mut calmed) = swing.map_or((Vec::new(), false), |swing| (swing.nodes, swing.calmed));
+        let (mut nodes, mut calmed) = local_motion.map_or((Vec::new(), false), |local_motion| (local_motion.nodes, local_motion.calmed));
         let has_numbers = instance.is_finite() && nodes.iter().flatten().flatten().all(|x| x.is_finite());
-        if let (Motion::Flying(history), false) = (object.motion, has_numbers) {
+        if let (ObjectMotion::Flying(history), false) = (object.motion, has_numbers) {
             // Its stand-in, straight on.
             (model, calmed) = (object.coarse, true);
-            nodes = swing::at_rest(history.at(emission).attitude);
+            nodes = local_motion::at_rest(history.at(emission).attitude);
             straight_on(&mut instance);
         }
         Some(Placed { model, instance, nodes, calmed })
     };
     let folded = match object.motion {
-        Motion::Held { position, .. } => camera.radius() < 1.0 && position.length() - object.reach < 1.0 && settings.method.bends,
-        Motion::Flying(_) => false,
+        ObjectMotion::Static { position, .. } => camera.radius() < 1.0 && position.length() - object.reach < 1.0 && settings.method.bends,
+        ObjectMotion::Flying(_) => false,
     };
     let second = folded.then(|| image(Order::ALL[0], Branch::Minus)).flatten();
     let orders = orders.min(settings.method.orders);
     Order::ALL.into_iter().take(orders as usize).filter_map(|order| image(order, Branch::Plus)).chain(second).collect()
 }
 
-/// Says how strictly the chords of an image `width` pixels wide are held to their curves, and whether it is a thin or a narrow one.
-fn set_strictness(instance: &mut Instance, view: &View, width: f64, order: Order) {
+/// Says how strictly the chords of an image `width` pixels wide are held to their curves, and whether it is a thin one or a narrow ring.
+fn set_strictness(instance: &mut Instance, view: &InstanceView, width: f64, order: Order) {
     if width < view.settings.thin_below && view.settings.min_width > 0.0 {
         instance.flags |= THIN;
         instance.strictness = THIN_STRICTNESS;
     } else {
-        instance.flags |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
-        instance.strictness = (SLIM_BELOW / width).clamp(1.0, MOST_SLIM) as f32;
+        instance.flags |= if width < NARROW_RING_BELOW && order.number() > 1 { NARROW_RING } else { 0 };
+        instance.strictness = (NARROW_IMAGE_BELOW / width).clamp(1.0, MOST_NARROW_STRICTNESS) as f32;
     }
     if NEAR_PHOTON_SPHERE.contains(&view.camera.radius()) {
         instance.strictness *= PHOTON_SPHERE_STRICTNESS;
@@ -197,17 +197,17 @@ fn plane_crossings(camera_height: f64, height: f64, order: Order) -> u32 {
     if across == n.is_multiple_of(2) { n - 1 } else { n }
 }
 
-/// Images narrower than this, in pixels, are narrow ones: of ten columns of pixels two are at an outline.
-const NARROW_BELOW: f64 = 10.0;
+/// Images of orders 2 and 3 narrower than this, in pixels, are narrow rings: of ten columns of pixels two are at an outline.
+const NARROW_RING_BELOW: f64 = 10.0;
 /// Strictness of thin images. They lie along the edge of the shadow and are widened by half a pixel. So their chords are held this much
 /// closer, and sag and widening together stay under a pixel.
 const THIN_STRICTNESS: f32 = 4.0;
-/// Images narrower than this, in pixels, are slim ones. The narrower they are, the closer their chords are held, since all of them are near
-/// an outline. The width is the largest; a ring is a tenth as wide elsewhere.
-const SLIM_BELOW: f64 = 16.0;
-/// Largest strictness of slim images: with 8, half as many random scenes of rings 1 to 3 px wide are beyond the limits as with 4. Stricter
-/// ones take more vertices than there is room for.
-const MOST_SLIM: f64 = 8.0;
+/// Images narrower than this, in pixels, are narrow ones. The narrower they are, the closer their chords are held, since all of them are
+/// near an outline. The width is the largest; a ring is a tenth as wide elsewhere.
+const NARROW_IMAGE_BELOW: f64 = 16.0;
+/// Largest strictness of narrow images: with 8, half as many random scenes of rings 1 to 3 px wide are beyond the limits as with 4.
+/// Stricter ones take more vertices than there is room for.
+const MOST_NARROW_STRICTNESS: f64 = 8.0;
 /// Camera radii, in r_s, from which light that circles the hole is seen beside what lies behind it. Images there are sheared, and their
 /// inner points are off by more than the chords around them.
 const NEAR_PHOTON_SPHERE: std::ops::RangeInclusive<f64> = 1.3..=1.8;
@@ -248,7 +248,7 @@ pub(super) fn place_by_axis(instance: &mut Instance, camera: &Observer, position
     (instance.rounding, instance.strictness) = (rounding as f32, 1.0);
 }
 
-fn held(camera: &Observer, position: DVec3, attitude: DQuat, object: &DrawnObject) -> Instance {
+fn static_instance(camera: &Observer, position: DVec3, attitude: DQuat, object: &DrawnObject) -> Instance {
     let turn = DMat3::from_quat(attitude);
     let [shape_x, shape_y, shape_z] = columns(turn * object.scale);
     let [turn_x, turn_y, turn_z] = columns(turn);
@@ -263,7 +263,7 @@ fn held(camera: &Observer, position: DVec3, attitude: DQuat, object: &DrawnObjec
         turn_y,
         turn_z,
         light: light_rows(&object.light),
-        flags: HELD,
+        flags: STATIC,
         ..Instance::default()
     }
 }
@@ -302,13 +302,13 @@ const MOST_SPAN: f64 = 8.0;
 /// The instance of a body whose light, seen at the second of these times, left at the first; its motion, and by what factor its points are
 /// drawn out. Its image of this order is `width` pixels wide.
 fn flying(
-    view: &View,
+    view: &InstanceView,
     history: &History,
     [emission, time]: [f64; 2],
     order: Order,
     width: f64,
     object: &DrawnObject,
-) -> (Instance, Option<Swing>, f64) {
+) -> (Instance, Option<LocalMotion>, f64) {
     let camera = view.camera;
     let sample = history.at(emission);
     let turn = DMat3::from_quat(sample.attitude);
@@ -339,22 +339,23 @@ fn flying(
     if still {
         return (instance, None, out.longer);
     }
-    let swing = Swing::new(history, emission, object.reach, &Seen { span: out.span, width, pixel: view.pixel * out.path });
-    let [first_node, step] = swing.times.map(|time| time as f32);
+    let local_motion =
+        LocalMotion::new(history, emission, object.reach, &ImageExtent { span: out.span, width, pixel: view.pixel * out.path });
+    let [first_node, step] = local_motion.times.map(|time| time as f32);
     let instance = Instance {
-        acceleration: numbers(swing.acceleration),
-        jerk: numbers(swing.jerk),
-        snap: numbers(swing.snap),
-        force: numbers(swing.force),
-        strays: f32::from(u8::from(swing.strays)),
-        spin: numbers(swing.spin),
-        spin_slack: swing.slack as f32,
+        acceleration: numbers(local_motion.acceleration),
+        jerk: numbers(local_motion.jerk),
+        snap: numbers(local_motion.snap),
+        force: numbers(local_motion.force),
+        strays: f32::from(u8::from(local_motion.strays)),
+        spin: numbers(local_motion.spin),
+        spin_slack: local_motion.slack as f32,
         first_node,
         nodes_per_time: step.recip(),
-        node_intervals: (swing.nodes.len() - 1) as f32,
+        node_intervals: (local_motion.nodes.len() - 1) as f32,
         ..instance
     };
-    (instance, Some(swing), out.longer)
+    (instance, Some(local_motion), out.longer)
 }
 
 /// Leaves of an instance's motion what has numbers for sure.

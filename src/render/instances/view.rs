@@ -13,7 +13,7 @@ use crate::spacetime::light::Order;
 
 /// A camera, and what is needed to tell how wide an image is.
 #[derive(Clone, Copy, Debug)]
-pub struct View<'a> {
+pub struct InstanceView<'a> {
     /// The camera.
     pub camera: &'a Observer,
     /// The table at its radius.
@@ -52,7 +52,7 @@ impl Extent {
     }
 }
 
-impl View<'_> {
+impl InstanceView<'_> {
     /// The direction (a unit vector, rain axes) from which light of age `age` (r_s/c) comes from a position, and the length of its path.
     /// Inside the horizon `age` decides which of two rays is meant.
     pub(in crate::render) fn look(&self, position: DVec3, order: Order, age: f64) -> Option<(DVec3, f64)> {

@@ -15,12 +15,12 @@ pub struct Upscale {
     rows: wgpu::RenderPipeline,
     columns: wgpu::RenderPipeline,
     format: wgpu::TextureFormat,
-    room: Option<Room>,
+    targets: Option<UpscaleTargets>,
 }
 
 /// What they read and write, for one pair of sizes.
 #[derive(Debug)]
-struct Room {
+struct UpscaleTargets {
     sizes: [[u32; 2]; 2],
     drawn: wgpu::TextureView,
     wide: wgpu::TextureView,
@@ -41,30 +41,30 @@ impl Upscale {
             let stage = Raster { vertex: "vertex", fragment, targets: &[(format, None)], depth: None };
             raster(device, label, &shader, stage, &[Some(frame_layout), None, Some(&layout)])
         };
-        Upscale { rows: pass("upscale rows", "rows"), columns: pass("upscale columns", "columns"), layout, format, room: None }
+        Upscale { rows: pass("upscale rows", "rows"), columns: pass("upscale columns", "columns"), layout, format, targets: None }
     }
 
     /// Takes up sizes: of what is drawn, and of the output.
     pub fn resize(&mut self, device: &wgpu::Device, drawn: [u32; 2], output: [u32; 2]) {
         if drawn == output {
-            self.room = None;
-        } else if self.room.as_ref().is_none_or(|room| room.sizes != [drawn, output]) {
+            self.targets = None;
+        } else if self.targets.as_ref().is_none_or(|targets| targets.sizes != [drawn, output]) {
             let [small, wide] =
                 [("drawn", drawn), ("wide", [output[0], drawn[1]])].map(|(label, size)| target(device, label, size, self.format).1);
             let group = |view| bind(device, "upscale", &self.layout, &[wgpu::BindingResource::TextureView(view)]);
-            self.room = Some(Room { sizes: [drawn, output], groups: [group(&small), group(&wide)], drawn: small, wide });
+            self.targets = Some(UpscaleTargets { sizes: [drawn, output], groups: [group(&small), group(&wide)], drawn: small, wide });
         }
     }
 
     /// Where the picture is to be drawn; None where the output itself is as large.
     pub fn drawn(&self) -> Option<&wgpu::TextureView> {
-        self.room.as_ref().map(|room| &room.drawn)
+        self.targets.as_ref().map(|targets| &targets.drawn)
     }
 
     /// Enlarges what was drawn, into `output`; nothing where that is as large.
     pub fn run(&self, recording: &mut Recording, output: &wgpu::TextureView) {
-        let Some(room) = &self.room else { return };
-        for (pipeline, group, to) in [(&self.rows, &room.groups[0], &room.wide), (&self.columns, &room.groups[1], output)] {
+        let Some(targets) = &self.targets else { return };
+        for (pipeline, group, to) in [(&self.rows, &targets.groups[0], &targets.wide), (&self.columns, &targets.groups[1], output)] {
             begin(recording, ["upscale"; 2], &[Some(colour(to, true))], pipeline, group).draw(0..3, 0..1);
         }
     }

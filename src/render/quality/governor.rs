@@ -6,7 +6,7 @@
 //! Where even the fastest rung is too slow, what the way down has saved is measured. It may be little: the processor's own work, or a card
 //! with more units than pixels. Then the finest rung is taken that is about as fast as the fastest, and the way down is tried again later.
 
-use super::ladder::Rung;
+use super::ladder::QualityRung;
 
 /// Frames after a change that say nothing: what was on its way, targets made anew.
 const SETTLING: u32 = 3;
@@ -104,7 +104,7 @@ impl Governor {
 
     /// Takes the last frame's time (ms), of which `work` was not spent waiting for the screen (the same if that is not known), and returns
     /// the rung for the next. `hold` is the time to hold.
-    pub fn follow(&mut self, ladder: &[Rung], hold: f64, frame: f64, work: f64) -> usize {
+    pub fn follow(&mut self, ladder: &[QualityRung], hold: f64, frame: f64, work: f64) -> usize {
         let last = ladder.len().saturating_sub(1);
         self.rung = self.rung.min(last);
         if !(frame.is_finite() && work.is_finite() && hold > 0.0 && frame > 0.0) || ladder.is_empty() {
@@ -170,7 +170,7 @@ impl Governor {
     /// On the last rung: the finest that is about as fast, judged by the way down from `top`, where frames took `before` ms.
     ///
     /// A frame takes F + V t on a rung of predicted time t: two measurements give both.
-    fn as_fast(&self, ladder: &[Rung], top: usize, before: f64) -> usize {
+    fn as_fast(&self, ladder: &[QualityRung], top: usize, before: f64) -> usize {
         let last = ladder.len() - 1;
         let saved = (before - self.mean[0]).max(0.0);
         let slope = saved / (ladder[top].time - ladder[last].time).max(f64::MIN_POSITIVE);
@@ -192,11 +192,15 @@ fn middle(mut three: [f64; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::quality::knobs::Knob;
+    use crate::render::quality::options::QualityOption;
 
-    fn rungs() -> Vec<Rung> {
+    fn rungs() -> Vec<QualityRung> {
         let times = [1.0, 0.8, 0.6, 0.45, 0.3];
-        times.iter().enumerate().map(|(k, time)| Rung { steps: [0; Knob::ALL.len()], error: 0.01 * k as f64, time: *time }).collect()
+        times
+            .iter()
+            .enumerate()
+            .map(|(k, time)| QualityRung { steps: [0; QualityOption::ALL.len()], error: 0.01 * k as f64, time: *time })
+            .collect()
     }
 
     /// Runs `frames` frames on a machine that takes `finest` ms for the finest; how often the rung changed.

@@ -27,7 +27,7 @@ use crate::lensing::methods::Method;
 use crate::render::Gpu;
 use crate::render::aurora::Aurora;
 use crate::render::disk::types::DiskCounters;
-use crate::render::disk::{Disk, DiskPasses};
+use crate::render::disk::{DiskPasses, DrawnDisk};
 use crate::render::frame::{FrameInput, blackbody_table};
 use crate::render::geometry::Geometry;
 use crate::render::geometry::thin::ThinLists;
@@ -63,7 +63,7 @@ pub struct SceneUpload {
     /// All models, where their [`ModelRange`]s say.
     pub models: ModelSet,
     /// The disk, if the scene has one.
-    pub disk: Option<Disk>,
+    pub disk: Option<DrawnDisk>,
     /// Frames to draw unseen before the first that is seen, so that all is compiled by then; with none the scene is shown at once.
     pub rehearsal: Vec<FrameInput>,
 }
@@ -213,7 +213,7 @@ impl Renderer {
     }
 
     /// Draws this disk from now on, or none.
-    pub fn set_disk(&mut self, disk: Option<Disk>) {
+    pub fn set_disk(&mut self, disk: Option<DrawnDisk>) {
         self.has_disk = disk.is_some();
         match (disk, &mut self.disk) {
             (Some(disk), Some(passes)) => passes.set(&self.gpu, &self.frame_layout, disk),
@@ -300,9 +300,9 @@ impl Renderer {
         let bytes = readback::buffer(&self.gpu, self.aurora.draws())?;
         let draws: Vec<[u32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
         let levels = self.aurora.levels().count();
-        let all = draws.chunks(crate::render::aurora::rooms::FOURS).take(self.aurora.images() as usize);
+        let all = draws.chunks(crate::render::aurora::capacities::FOURS).take(self.aurora.images() as usize);
         Ok(Some(all.fold(vec![0; levels], |sum, image| {
-            sum.iter().zip(image).map(|(sum, draw)| sum + draw[0] / crate::render::aurora::rooms::CORNERS).collect()
+            sum.iter().zip(image).map(|(sum, draw)| sum + draw[0] / crate::render::aurora::capacities::CORNERS).collect()
         })))
     }
 

@@ -1,7 +1,7 @@
 //! A frame as a picture: drawn, and brought back.
 
 use crate::render::frame::FrameInput;
-use crate::render::gpu::readback::{self, Picture, PictureError};
+use crate::render::gpu::readback::{self, PictureError, ReadbackPicture};
 use crate::render::gpu::targets::target;
 use crate::render::passes::{begin_thin, colour, depth};
 use crate::render::post_process::coverage::covered;
@@ -10,7 +10,7 @@ use crate::render::renderer::Renderer;
 impl Renderer {
     /// Draws one frame into a texture of its own and brings it back. The exposure settles first: the frame is drawn twice. Of a frame that
     /// is drawn smaller than the output there is the finished picture alone.
-    pub fn picture(&mut self, input: &FrameInput, layers: bool) -> Result<Picture, PictureError> {
+    pub fn picture(&mut self, input: &FrameInput, layers: bool) -> Result<ReadbackPicture, PictureError> {
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
         let (texture, view) = target(&self.gpu.device, "output", self.output.0, format);
         for _ in 0..2 {
@@ -26,7 +26,7 @@ impl Renderer {
         }
         let display = readback::texture(&self.gpu, &texture, 4)?;
         if self.upscale.drawn().is_some() {
-            return Ok(Picture { size: self.output.0, display, ..Picture::default() });
+            return Ok(ReadbackPicture { size: self.output.0, display, ..ReadbackPicture::default() });
         }
         let halves = readback::texture(&self.gpu, &self.targets.picture_texture, 8)?;
         let linear = halves
@@ -45,7 +45,7 @@ impl Renderer {
         } else {
             Vec::new()
         };
-        Ok(Picture { size: self.targets.size, display, linear, layers, surface, thin })
+        Ok(ReadbackPicture { size: self.targets.size, display, linear, layers, surface, thin })
     }
 
     fn encode_layers(&mut self, encoder: &mut wgpu::CommandEncoder) {

@@ -9,8 +9,8 @@ use crate::sim::assist::{AssistSettings, Reference, Stick, assisted};
 use crate::sim::bolts::Trigger;
 use crate::sim::clock::Clock;
 use crate::sim::goals::ActiveMission;
-use crate::sim::hands::HandsRule;
 use crate::sim::history::History;
+use crate::sim::player_commands::ManualControl;
 use crate::sim::ship::{Controls, Ended, Engine, Fleet, Pilot, PilotOrder, ShipMotion};
 use crate::sim::sight::{apparition, true_direction};
 use crate::spacetime::Observer;
@@ -41,12 +41,12 @@ type BeginnerShip<'a> = (&'a Pilot, &'a mut Beginner, &'a mut Controls, &'a Ship
 /// Sets the controls of every beginner's ship.
 pub fn fly_as_beginner(
     (clock, fleet): (Res<Clock>, Res<Fleet>),
-    rule: Option<Res<HandsRule>>,
+    control: Option<Res<ManualControl>>,
     mission: Option<Res<ActiveMission>>,
     mut ships: Query<BeginnerShip, Without<Ended>>,
     others: Query<&History>,
 ) {
-    let assist = rule.map_or(AssistSettings { damping_time: 3.0, avoid_radius: None }, |rule| rule.assist);
+    let assist = control.map_or(AssistSettings { damping_time: 3.0, avoid_radius: None }, |control| control.assist);
     let marked_now = mission.is_none_or(|mission| mission.0.now_marker);
     for &entity in &fleet.0 {
         let Ok((pilot, mut beginner, mut controls, motion, engine, trigger)) = ships.get_mut(entity) else { continue };
@@ -69,7 +69,7 @@ pub fn fly_as_beginner(
     }
 }
 
-/// What the hands do with the mark at `ahead` (body axes).
+/// What a beginner commands with the mark at `ahead` (body axes).
 fn stick(order: PilotOrder, ahead: Option<DVec3>) -> Stick {
     let on_mark = ahead.is_some_and(|ahead| ahead.angle_between(DVec3::NEG_Z) < ON_MARK);
     let pushes = match order {

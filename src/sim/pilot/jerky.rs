@@ -8,7 +8,7 @@ use rand::{RngExt, SeedableRng, rngs::StdRng};
 use crate::sim::assist::{Reference, Stick, assisted, direct};
 use crate::sim::bolts::Trigger;
 use crate::sim::clock::Clock;
-use crate::sim::hands::{Hands, HandsRule};
+use crate::sim::player_commands::{ManualControl, PlayerCommands};
 use crate::sim::ship::{Controls, Ended, Engine, Fleet, Manual, ShipMotion};
 
 /// Marks a ship that is flown so.
@@ -91,13 +91,13 @@ type JerkyShip<'a> = (&'a mut Jerky, &'a mut Controls, &'a mut Engine, &'a ShipM
 
 /// Sets the controls of every ship flown so.
 pub fn fly_by_jerks(
-    (clock, fleet, hands): (Res<Clock>, Res<Fleet>, Res<Hands>),
-    rule: Option<Res<HandsRule>>,
+    (clock, fleet, commands): (Res<Clock>, Res<Fleet>, Res<PlayerCommands>),
+    control: Option<Res<ManualControl>>,
     mut ships: Query<JerkyShip, (Without<Ended>, Without<Manual>)>,
 ) {
     for &entity in &fleet.0 {
         let Ok((mut jerky, mut controls, mut engine, motion, trigger)) = ships.get_mut(entity) else { continue };
-        let pace = hands.pace * jerky.slowing;
+        let pace = commands.pace * jerky.slowing;
         if clock.time >= jerky.until {
             jerky.change(clock.time, pace);
         }
@@ -105,11 +105,11 @@ pub fn fly_by_jerks(
             jerky.stick.turn = jerky.any_turn() * 2.0;
         }
         // As coarse as a player's.
-        let stick = Hands::holding(&jerky.stick).stick();
-        controls.0 = match &rule {
-            Some(rule) => {
-                engine.max_rate = rule.turn_rate / pace;
-                let help = assisted(&motion.0, &stick, &engine, Reference::Orbit, &rule.assist).command;
+        let stick = PlayerCommands::holding(&jerky.stick).stick();
+        controls.0 = match &control {
+            Some(control) => {
+                engine.max_rate = control.turn_rate / pace;
+                let help = assisted(&motion.0, &stick, &engine, Reference::Orbit, &control.assist).command;
                 if jerky.assist { help } else { direct(&stick, &engine) }
             }
             None => direct(&stick, &engine),

@@ -81,9 +81,9 @@ impl Default for Chance {
     }
 }
 
-/// What a pilot has in mind. Every [`Pilot`] has one.
+/// The plan that a pilot follows, and what it last knew. Every [`Pilot`] has one.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
-pub struct Mind {
+pub struct PilotState {
     /// The burn being flown.
     pub burn: PlannedBurn,
     /// T at which it was planned, in r_s/c.
@@ -100,9 +100,9 @@ pub struct Mind {
     pub aim: Option<(DVec3, f64)>,
 }
 
-impl Default for Mind {
+impl Default for PilotState {
     fn default() -> Self {
-        Mind { burn: PlannedBurn::COAST, since: 0.0, next_plan: 0.0, meeting: None, order: PilotOrder::Rest, known: 0.0, aim: None }
+        PilotState { burn: PlannedBurn::COAST, since: 0.0, next_plan: 0.0, meeting: None, order: PilotOrder::Rest, known: 0.0, aim: None }
     }
 }
 
@@ -127,7 +127,7 @@ const PERSISTENCE: f64 = 4.0;
 const MEETING_PERIOD: f64 = 0.25;
 
 type Piloted<'a> = (
-    (&'a Pilot, &'a mut Mind, &'a mut Controls),
+    (&'a Pilot, &'a mut PilotState, &'a mut Controls),
     (&'a ShipMotion, &'a Engine, &'a Fuel),
     (Option<&'a Gun>, Option<&'a mut Trigger>),
     Has<Player>,
@@ -145,13 +145,13 @@ fn fly_by_pilot(
 ) {
     let inside = mission.is_some_and(|mission| mission.0.inside);
     for &entity in &fleet.0 {
-        let Ok(((pilot, mut mind, mut controls), (motion, engine, fuel), (gun, trigger), is_player)) = pilots.get_mut(entity) else {
+        let Ok(((pilot, mut state, mut controls), (motion, engine, fuel), (gun, trigger), is_player)) = pilots.get_mut(entity) else {
             continue;
         };
-        let seat = Seat { state: &motion.0, engine, fuel: fuel.left, now: clock.time, sees: pilot.sees };
+        let context = PilotContext { state: &motion.0, engine, fuel: fuel.left, now: clock.time, sees: pilot.sees };
         let skill = if is_player { skills.own } else { skills.enemy };
-        if mind.order != pilot.order {
-            *mind = Mind { order: pilot.order, known: mind.known, ..Mind::default() };
+        if state.order != pilot.order {
+            *state = PilotState { order: pilot.order, known: state.known, ..PilotState::default() };
         }
         let other = pilot.order.target().map(|ship| others.get(ship));
         let other = match other {
@@ -170,37 +170,38 @@ fn fly_by_pilot(
             }
             PilotOrder::Face(_) => {
                 controls.0 = other
-                    .and_then(|(history, _)| seat.image(history))
+                    .and_then(|(history, _)| context.image(history))
                     .map_or_else(Command::default, |ahead| Command { thrust: DVec3::ZERO, rates: turn_nose(ahead, engine.fastest_turn()) });
                 continue;
             }
             PilotOrder::Catch(_) | PilotOrder::Hit(_) | PilotOrder::Escape(_) | PilotOrder::Pass(_) | PilotOrder::Keep(_) => (),
         }
-        if clock.time >= mind.next_plan {
-            let known = other.map(|(history, engine)| (seat.reckon(history, skill.reaction_delay, &mut mind.known), engine.max_thrust));
-            let task = seat.task(pilot.order, known, &skill, rules.0.arena_radius, inside);
-            mind.aim = match (pilot.order, gun) {
+        if clock.time >= state.next_plan {
+            let known = other.map(|(history, engine)| (context.reckon(history, skill.reaction_delay, &mut state.known), engine.max_thrust));
+            let task = context.task(pilot.order, known, &skill, rules.0.arena_radius, inside);
+            state.aim = match (pilot.order, gun) {
                 (PilotOrder::Hit(_), Some(gun)) if gun.left > 0 => aim::lead(&motion.0, &task.other, &task.other_burn),
                 _ => None,
             };
-            mind.meeting = match task.aim {
+            state.meeting = match task.aim {
                 Aim::Catch => rendezvous(&task),
                 Aim::Pass => intercept(&task),
                 Aim::Escape | Aim::Keep(_) => None,
             };
-            if mind.meeting.is_some() {
-                mind.next_plan = clock.time + MEETING_PERIOD;
+            if state.meeting.is_some() {
+                state.next_plan = clock.time + MEETING_PERIOD;
             } else {
-                let rest = PlannedBurn { duration: mind.burn.duration - (clock.time - mind.since), ..mind.burn };
-                mind.burn = plan(&task, &rest, &mut chance.0).0;
-                mind.since = clock.time;
-                mind.next_plan = clock.time + if mind.aim.is_some() { MEETING_PERIOD } else { skill.replan_period };
+                let rest = PlannedBurn { duration: state.burn.duration - (clock.time - state.since), ..state.burn };
+                state.burn = plan(&task, &rest, &mut chance.0).0;
+                state.since = clock.time;
+                state.next_plan = clock.time + if state.aim.is_some() { MEETING_PERIOD } else { skill.replan_period };
             }
         }
-        let burning = clock.time - mind.since < mind.burn.duration;
-        let wish = mind.meeting.unwrap_or_else(|| if burning { Point::from(&motion.0).from_local(mind.burn.thrust) } else { DVec3::ZERO });
+        let burning = clock.time - state.since < state.burn.duration;
+        let wish =
+            state.meeting.unwrap_or_else(|| if burning { Point::from(&motion.0).from_local(state.burn.thrust) } else { DVec3::ZERO });
         controls.0 = command(&motion.0, wish, engine);
-        if let Some((direction, tolerance)) = mind.aim {
+        if let Some((direction, tolerance)) = state.aim {
             let ahead = motion.0.attitude.conjugate() * direction;
             controls.0.rates = turn_nose(ahead, engine.fastest_turn());
             if let Some(mut trigger) = trigger {
@@ -210,8 +211,8 @@ fn fly_by_pilot(
     }
 }
 
-/// What a pilot has before it.
-struct Seat<'a> {
+/// What a pilot knows of its own ship.
+struct PilotContext<'a> {
     state: &'a ShipState,
     engine: &'a Engine,
     fuel: f64,
@@ -219,7 +220,7 @@ struct Seat<'a> {
     sees: Sees,
 }
 
-impl Seat<'_> {
+impl PilotContext<'_> {
     /// The ship as an observer.
     fn eye(&self) -> Observer {
         let ShipState { position, momentum, attitude, .. } = *self.state;

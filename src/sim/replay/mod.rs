@@ -1,4 +1,4 @@
-//! Replays: a flight as the list of what the player's hands did, from which it is flown again to the same bits.
+//! Replays: a flight as the list of the player's commands, from which it is flown again to the same bits.
 //!
 //! A replay is a TOML file. Its `log` holds the records, packed (column by column, differences, DEFLATE, Base64); `check` is the CRC-32 of
 //! all lines before it. The same version of the program on the same kind of machine flies it to the same end; others may round another way.
@@ -11,14 +11,14 @@ use bevy::prelude::*;
 use data_encoding::BASE64;
 use serde::{Deserialize, Serialize};
 
-use super::hands::{Hands, choose_pilot};
+use super::player_commands::{PlayerCommands, choose_pilot};
 use super::run::{FlightReport, RunRequest, fly_to_end, state_hash};
 use super::{Clock, SimSet, app_of, board, outcome};
 use crate::game_files::{self, GameFile};
 use crate::scene::config::{self, Value};
-use crate::scene::crew::Crew;
 use crate::scene::document;
 use crate::scene::mission::Difficulty;
+use crate::scene::pilot_kind::PilotKind;
 use crate::scene::{self, GameConfig, Scene, SceneError};
 use crate::user_file::{FileFault, brief, short};
 use packing::{MOST_BYTES, pack, unpack};
@@ -42,12 +42,12 @@ pub struct Replay {
     /// Of the mission.
     pub difficulty: Difficulty,
     /// Who flies while the autopilot does.
-    pub crew: Crew,
+    pub pilot: PilotKind,
     /// For everything left to chance.
     pub seed: u64,
     /// The settings that the flight depends on, before the difficulty: dotted keys and values.
     pub settings: Vec<(String, Value)>,
-    /// What the hands did.
+    /// The player's commands.
     pub records: Vec<Record>,
     /// Steps flown.
     pub ticks: u64,
@@ -137,13 +137,13 @@ struct ReplayFile {
 
 impl Replay {
     /// A flight that begins now: nothing is recorded yet.
-    pub fn begin(scene: &Scene, config: &GameConfig, difficulty: Difficulty, crew: Crew, seed: u64) -> Replay {
+    pub fn begin(scene: &Scene, config: &GameConfig, difficulty: Difficulty, pilot: PilotKind, seed: u64) -> Replay {
         let settings = config::settings().iter().filter(|setting| SECTIONS.contains(&setting.section));
         Replay {
             scene: scene.name.clone(),
             fingerprint: scene.fingerprint,
             difficulty,
-            crew,
+            pilot,
             seed,
             settings: settings.map(|setting| (setting.path(), setting.get(config))).collect(),
             records: Vec::new(),
@@ -168,7 +168,7 @@ impl Replay {
             quoted(&self.scene),
             self.fingerprint,
             self.difficulty,
-            self.crew,
+            self.pilot,
             self.seed,
             self.ticks,
             quoted(&self.outcome),
@@ -222,7 +222,7 @@ impl Replay {
             scene: file.scene,
             fingerprint: u64::from_str_radix(&file.fingerprint, 16).map_err(|_| damaged("its fingerprint is damaged".into()))?,
             difficulty: file.difficulty.parse().map_err(damaged)?,
-            crew: file.pilot.parse().map_err(damaged)?,
+            pilot: file.pilot.parse().map_err(damaged)?,
             seed: file.seed,
             settings: settings(file.settings).map_err(|wrong| damaged(brief(&wrong)))?,
             records: unpack(&log).ok_or_else(|| damaged("its log is damaged".into()))?,
@@ -263,7 +263,7 @@ impl Replay {
         let config = scene.config(&self.config(config), self.difficulty);
         let mut app = app_of(scene, &config, self.seed);
         app.insert_resource(Playback::of(self));
-        board(app.world_mut(), self.crew);
+        board(app.world_mut(), self.pilot);
         app
     }
 
@@ -289,12 +289,12 @@ impl Replay {
 
 /// As [`run`](super::run::run), and the flight as a replay.
 pub fn record(scene: &Scene, config: &GameConfig, request: &RunRequest) -> (FlightReport, Replay) {
-    let begun = Replay::begin(scene, config, request.difficulty, request.crew, request.seed);
+    let begun = Replay::begin(scene, config, request.difficulty, request.pilot, request.seed);
     let config = scene.config(config, request.difficulty);
     let until = request.until.unwrap_or(scene.rules(&config).time_limit);
     let mut app = app_of(scene, &config, request.seed);
     app.insert_resource(ReplayLog(begun.clone()));
-    board(app.world_mut(), request.crew);
+    board(app.world_mut(), request.pilot);
     let report = fly_to_end(app.world_mut(), until);
     let mut replay = app.world_mut().remove_resource::<ReplayLog>().map_or(begun, |recording| recording.0);
     replay.finish(app.world());
@@ -342,19 +342,19 @@ pub(in crate::sim) fn settings(table: toml::Table) -> Result<Vec<(String, Value)
     table.into_iter().map(one).collect()
 }
 
-/// Records what the hands do, as a [`Replay`] that grows.
+/// Records the player's commands, as a [`Replay`] that grows.
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct ReplayLog(pub Replay);
 
 impl ReplayLog {
-    fn note(&mut self, tick: u64, hands: &Hands) {
-        if self.0.records.last().is_none_or(|last| last.hands != *hands) {
-            self.0.records.push(Record { tick, hands: *hands });
+    fn note(&mut self, tick: u64, commands: &PlayerCommands) {
+        if self.0.records.last().is_none_or(|last| last.commands != *commands) {
+            self.0.records.push(Record { tick, commands: *commands });
         }
     }
 }
 
-/// A replay that is flown: its hands are the player's.
+/// A replay that is flown: its commands are the player's.
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct Playback {
     records: Vec<Record>,
@@ -368,7 +368,7 @@ impl Playback {
     }
 }
 
-/// Moves the hands of a [`Playback`], and keeps what they do in a [`ReplayLog`], where there is one.
+/// Gives the commands of a [`Playback`], and keeps them in a [`ReplayLog`], where there is one.
 pub struct PlaybackPlugin;
 
 impl Plugin for PlaybackPlugin {
@@ -377,22 +377,22 @@ impl Plugin for PlaybackPlugin {
             FixedUpdate,
             (
                 play_back.run_if(resource_exists::<Playback>).before(choose_pilot).in_set(SimSet::Input),
-                note_hands.run_if(resource_exists::<ReplayLog>).after(choose_pilot).in_set(SimSet::Input),
+                record_commands.run_if(resource_exists::<ReplayLog>).after(choose_pilot).in_set(SimSet::Input),
             ),
         );
     }
 }
 
-/// The hands of this step.
-fn play_back(clock: Res<Clock>, mut playback: ResMut<Playback>, mut hands: ResMut<Hands>) {
+/// The commands of this step.
+fn play_back(clock: Res<Clock>, mut playback: ResMut<Playback>, mut commands: ResMut<PlayerCommands>) {
     while let Some(record) = playback.records.get(playback.next).filter(|record| record.tick <= clock.tick).copied() {
-        *hands = record.hands;
+        *commands = record.commands;
         playback.next += 1;
     }
 }
 
-fn note_hands(clock: Res<Clock>, hands: Res<Hands>, mut recording: ResMut<ReplayLog>) {
-    recording.note(clock.tick, &hands);
+fn record_commands(clock: Res<Clock>, commands: Res<PlayerCommands>, mut recording: ResMut<ReplayLog>) {
+    recording.note(clock.tick, &commands);
 }
 
 #[cfg(test)]
@@ -402,7 +402,7 @@ mod tests {
 
     fn replay(records: Vec<Record>) -> Replay {
         let scene = scene::load("02-first-pursuit").expect("a mission of the game");
-        let mut replay = Replay::begin(&scene, &GameConfig::default(), Difficulty::Hard, Crew::Naive, 7);
+        let mut replay = Replay::begin(&scene, &GameConfig::default(), Difficulty::Hard, PilotKind::Naive, 7);
         replay.records = records;
         replay.hash = "0123456789abcdef".into();
         replay
@@ -418,7 +418,10 @@ mod tests {
                 *axis = 0.9 * *axis + chance.random_range(-12.0..12.0);
             }
             let thrust = [0, 0, if (tick / 200).is_multiple_of(3) { -76 } else { 0 }];
-            Record { tick, hands: Hands { thrust, turn: [turn[0] as i8, turn[1] as i8, 0], assist: true, ..Hands::default() } }
+            Record {
+                tick,
+                commands: PlayerCommands { thrust, turn: [turn[0] as i8, turn[1] as i8, 0], assist: true, ..PlayerCommands::default() },
+            }
         };
         (0..ticks).map(one).collect()
     }
@@ -427,7 +430,7 @@ mod tests {
     fn a_text_gives_the_replay_back() {
         let mut records = restless();
         records.truncate(500);
-        records[300].hands = Hands { pace: 0.375, fire: true, looking: true, autopilot: true, ..records[300].hands };
+        records[300].commands = PlayerCommands { pace: 0.375, fire: true, looking: true, autopilot: true, ..records[300].commands };
         let before = replay(records);
         assert_eq!(Replay::from_text(Path::new("x"), &before.to_text()).expect("a replay"), before);
         let empty = replay(vec![]);

@@ -4,18 +4,18 @@ use std::io::Read as _;
 
 use flate2::{Compression, read::ZlibDecoder, read::ZlibEncoder};
 
-use crate::sim::hands::Hands;
+use crate::sim::player_commands::PlayerCommands;
 
 /// The most bytes of a file, and of its records unpacked: hours of flight.
 pub(super) const MOST_BYTES: u64 = 16 << 20;
 
-/// What the hands did from a step on.
+/// The player's commands from a step on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Record {
     /// The step, counted from 0.
     pub tick: u64,
     /// From then on.
-    pub hands: Hands,
+    pub commands: PlayerCommands,
 }
 
 /// Numbers of a record besides its pace: steps since the one before, six sticks, four switches.
@@ -36,7 +36,7 @@ pub(super) fn pack(records: &[Record]) -> Vec<u8> {
     }
     let mut before = 0u64;
     for record in records {
-        let bits = record.hands.pace.to_bits();
+        let bits = record.commands.pace.to_bits();
         varint(&mut raw, bits ^ before);
         before = bits;
     }
@@ -86,13 +86,16 @@ pub(super) fn unpack(packed: &[u8]) -> Option<Vec<Record>> {
 
 /// One number of a record; sticks as their bytes.
 fn column_of(record: &Record, column: usize) -> u64 {
-    let hands = &record.hands;
+    let commands = &record.commands;
     let byte = |stick: i8| u64::from(stick as u8);
     match column {
         0 => record.tick,
-        1..=3 => byte(hands.thrust[column - 1]),
-        4..=6 => byte(hands.turn[column - 4]),
-        _ => [hands.assist, hands.autopilot, hands.looking, hands.fire].iter().rev().fold(0, |bits, &on| 2 * bits + u64::from(on)),
+        1..=3 => byte(commands.thrust[column - 1]),
+        4..=6 => byte(commands.turn[column - 4]),
+        _ => [commands.assist, commands.autopilot, commands.looking, commands.fire]
+            .iter()
+            .rev()
+            .fold(0, |bits, &on| 2 * bits + u64::from(on)),
     }
 }
 
@@ -102,7 +105,7 @@ fn record_of(row: [u64; COLUMNS], pace: f64) -> Record {
     let switch = |bit: u64| row[7] >> bit & 1 == 1;
     Record {
         tick: row[0],
-        hands: Hands {
+        commands: PlayerCommands {
             thrust: [stick(1), stick(2), stick(3)],
             turn: [stick(4), stick(5), stick(6)],
             assist: switch(0),

@@ -48,7 +48,7 @@ impl Track<'_> {
 
 /// A ball that flies.
 #[derive(Clone, Copy)]
-pub struct Body<'a> {
+pub struct SeenBody<'a> {
     /// Its worldline.
     pub track: Track<'a>,
     /// Its radius, in r_s.
@@ -57,7 +57,7 @@ pub struct Body<'a> {
 
 /// One image of a body.
 #[derive(Clone, Copy, Debug)]
-pub struct Image {
+pub struct SeenImage {
     /// Towards its middle: unit vector in camera axes.
     pub direction: DVec3,
     /// Age of its light in T, in r_s/c.
@@ -74,9 +74,9 @@ pub struct Image {
     psi: [f64; 2],
 }
 
-impl Image {
+impl SeenImage {
     /// The image of order `order` of a body at T = `time`; None where no light of it arrives.
-    pub fn of(eye: &Eye, time: f64, body: &Body, order: Order) -> Option<Image> {
+    pub fn of(eye: &Eye, time: f64, body: &SeenBody, order: Order) -> Option<SeenImage> {
         let emitted = sight::emission_time_of(eye.camera, time, |t| body.track.at(t), order)?;
         let position = body.track.place(emitted)?;
         let age = time - emitted;
@@ -106,7 +106,7 @@ impl Image {
             (low, high) = (low.min(psi), high.max(psi));
         }
         let psi = [middle - ROOM * (middle - low), middle + ROOM * (high - middle)];
-        Some(Image { direction, age, swept, r, side, half_turn, psi })
+        Some(SeenImage { direction, age, swept, r, side, half_turn, psi })
     }
 
     /// Whether this image may be what is seen there.

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::field::{Field, best, point};
-use super::kind::{Pointer, Sight};
-use super::look::{Crossing, Look};
+use super::kind::{Phenomenon, Pointer};
+use super::look::{GasCrossing, Look};
 use crate::scene::disk::radial::LAST_ORBIT;
 
 /// g must differ from 1 by so much for a side to be called blue or red.
@@ -39,10 +39,10 @@ pub fn disk(field: &Field) -> Vec<Pointer> {
     });
     let underside = best(seen[1].iter().filter(|_| has_faces), |spot| spot.inwards() - spot.facing(field) - off_middle(spot));
     [
-        far_side.map(|spot| point(Sight::DiskFarSide, &spot.look, spot.gas.position.length())),
-        underside.map(|spot| point(Sight::DiskUnderside, &spot.look, spot.gas.position.length())),
-        bluest.map(|spot| point(Sight::BlueSide, &spot.look, spot.gas.g)),
-        reddest.map(|spot| point(Sight::RedSide, &spot.look, spot.gas.g)),
+        far_side.map(|spot| point(Phenomenon::DiskFarSide, &spot.look, spot.gas.position.length())),
+        underside.map(|spot| point(Phenomenon::DiskUnderside, &spot.look, spot.gas.position.length())),
+        bluest.map(|spot| point(Phenomenon::BlueSide, &spot.look, spot.gas.g)),
+        reddest.map(|spot| point(Phenomenon::RedSide, &spot.look, spot.gas.g)),
     ]
     .into_iter()
     .flatten()
@@ -52,7 +52,7 @@ pub fn disk(field: &Field) -> Vec<Pointer> {
 /// Gas that is seen.
 struct Spot {
     look: Look,
-    gas: Crossing,
+    gas: GasCrossing,
     depth: u16,
 }
 

@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::body::Image;
-use super::kind::{Pointer, Sight};
+use super::body::SeenImage;
+use super::kind::{Phenomenon, Pointer};
 use super::look::{Eye, Look};
-use super::screen::Screen;
+use super::screen::CameraScreen;
 
 /// So many sides evenly all round the hole, and as many of those that are on the screen.
 const SIDES: usize = 32;
@@ -17,16 +17,16 @@ pub struct Field<'a> {
     /// The camera.
     pub eye: Eye<'a>,
     /// Its screen.
-    pub screen: Screen,
+    pub screen: CameraScreen,
     /// What the cells show.
     pub looks: Vec<Look>,
-    images: Vec<Image>,
+    images: Vec<SeenImage>,
     hidden: Vec<bool>,
 }
 
 impl<'a> Field<'a> {
     /// Looks in all directions of the grid. `images` are those of bodies, which may be before what is behind them.
-    pub fn new(eye: Eye<'a>, screen: Screen, images: Vec<Image>) -> Field<'a> {
+    pub fn new(eye: Eye<'a>, screen: CameraScreen, images: Vec<SeenImage>) -> Field<'a> {
         let looks: Vec<Look> = screen.directions().map(|seen| eye.look(seen)).collect();
         let hidden = looks.iter().map(|look| images.iter().any(|image| image.covers(look))).collect();
         Field { eye, screen, looks, images, hidden }
@@ -59,7 +59,7 @@ impl<'a> Field<'a> {
 }
 
 /// A pointer to what a look shows.
-pub fn point(sight: Sight, look: &Look, number: f64) -> Pointer {
+pub fn point(sight: Phenomenon, look: &Look, number: f64) -> Pointer {
     Pointer { sight, direction: look.seen, number: Some(number) }
 }
 

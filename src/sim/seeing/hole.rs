@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 
 use super::field::{Field, best, point};
-use super::kind::{Pointer, Sight};
+use super::kind::{Phenomenon, Pointer};
 use super::look::Look;
 use crate::spacetime::frames;
 use crate::spacetime::metric::CRITICAL_IMPACT;
@@ -38,7 +38,7 @@ pub fn shadow(field: &Field) -> Option<Pointer> {
         let inside = field.sides().into_iter().flat_map(|side| [0.3, 0.6, 1.0].map(|part| (edge + part * (PI - edge), side)));
         inside.filter_map(|(psi, side)| field.look(field.eye.seen(psi, side))).find(open)
     })?;
-    Some(Pointer { sight: Sight::Shadow, direction: found.seen, number: enlargement(field.eye.u) })
+    Some(Pointer { sight: Phenomenon::Shadow, direction: found.seen, number: enlargement(field.eye.u) })
 }
 
 /// The shadow's angular radius over that of a ball of radius r_s in flat space at the same distance, for who hovers at u = 1/r (1/r_s).
@@ -67,7 +67,7 @@ pub fn photon_ring(field: &Field, others: &[Pointer]) -> Option<Pointer> {
         }
     });
     let (_, swept, look) = best(ring, |(score, ..)| *score)?;
-    Some(point(Sight::PhotonRing, &look, swept / TAU))
+    Some(point(Phenomenon::PhotonRing, &look, swept / TAU))
 }
 
 /// Sky near the direction in which the camera moves, for who hovers there; None where nothing hovers, and for slow cameras.
@@ -90,7 +90,7 @@ pub fn aberration(field: &Field) -> Option<Pointer> {
         best(field.cells(&depths), |(depth, look)| look.seen.dot(ahead) + if *depth > 1 { 0.1 } else { 0.0 }).map(|(_, look)| *look)
     })?;
     let shrinks = shrinks(&found);
-    Some(point(Sight::Aberration, &found, shrinks))
+    Some(point(Phenomenon::Aberration, &found, shrinks))
 }
 
 #[cfg(test)]

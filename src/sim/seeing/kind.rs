@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// A phenomenon on the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Sight {
+pub enum Phenomenon {
     /// The shadow of the hole. Number: its angular radius over that of a ball of radius r_s at that distance in flat space, both for who
     /// hovers; None at and under the horizon.
     Shadow,
@@ -30,36 +30,36 @@ pub enum Sight {
     TargetImage,
 }
 
-impl Sight {
+impl Phenomenon {
     /// All of them, in their order.
-    pub const ALL: [Sight; 11] = [
-        Sight::Shadow,
-        Sight::PhotonRing,
-        Sight::DiskFarSide,
-        Sight::DiskUnderside,
-        Sight::BlueSide,
-        Sight::RedSide,
-        Sight::EinsteinRing,
-        Sight::SecondImage,
-        Sight::Aberration,
-        Sight::TrueTarget,
-        Sight::TargetImage,
+    pub const ALL: [Phenomenon; 11] = [
+        Phenomenon::Shadow,
+        Phenomenon::PhotonRing,
+        Phenomenon::DiskFarSide,
+        Phenomenon::DiskUnderside,
+        Phenomenon::BlueSide,
+        Phenomenon::RedSide,
+        Phenomenon::EinsteinRing,
+        Phenomenon::SecondImage,
+        Phenomenon::Aberration,
+        Phenomenon::TrueTarget,
+        Phenomenon::TargetImage,
     ];
 
     /// Its name in files of words; never changes.
     pub const fn key(self) -> &'static str {
         match self {
-            Sight::Shadow => "shadow",
-            Sight::PhotonRing => "photon-ring",
-            Sight::DiskFarSide => "disk-far-side",
-            Sight::DiskUnderside => "disk-underside",
-            Sight::BlueSide => "blue-side",
-            Sight::RedSide => "red-side",
-            Sight::EinsteinRing => "einstein-ring",
-            Sight::SecondImage => "second-image",
-            Sight::Aberration => "aberration",
-            Sight::TrueTarget => "true-target",
-            Sight::TargetImage => "target-image",
+            Phenomenon::Shadow => "shadow",
+            Phenomenon::PhotonRing => "photon-ring",
+            Phenomenon::DiskFarSide => "disk-far-side",
+            Phenomenon::DiskUnderside => "disk-underside",
+            Phenomenon::BlueSide => "blue-side",
+            Phenomenon::RedSide => "red-side",
+            Phenomenon::EinsteinRing => "einstein-ring",
+            Phenomenon::SecondImage => "second-image",
+            Phenomenon::Aberration => "aberration",
+            Phenomenon::TrueTarget => "true-target",
+            Phenomenon::TargetImage => "target-image",
         }
     }
 }
@@ -68,10 +68,10 @@ impl Sight {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pointer {
     /// What is there.
-    pub sight: Sight,
+    pub sight: Phenomenon,
     /// Where it is seen: a unit vector in camera axes (−z forward).
     pub direction: DVec3,
-    /// See [`Sight`] for what it counts.
+    /// See [`Phenomenon`] for what it counts.
     pub number: Option<f64>,
 }
 
@@ -81,8 +81,8 @@ mod tests {
 
     #[test]
     fn keys_are_distinct_and_in_the_order_of_the_sights() {
-        let keys: std::collections::BTreeSet<&str> = Sight::ALL.iter().map(|sight| sight.key()).collect();
-        assert_eq!(keys.len(), Sight::ALL.len());
-        assert!(Sight::ALL.is_sorted());
+        let keys: std::collections::BTreeSet<&str> = Phenomenon::ALL.iter().map(|sight| sight.key()).collect();
+        assert_eq!(keys.len(), Phenomenon::ALL.len());
+        assert!(Phenomenon::ALL.is_sorted());
     }
 }

@@ -9,7 +9,7 @@ use glam::{DMat4, DVec3};
 
 use crate::scene::disk::{Gas, slant};
 use crate::spacetime::Observer;
-use crate::spacetime::light::{self, Branch, Fate};
+use crate::spacetime::light::{self, Branch, SweepEnd};
 use crate::spacetime::matter::gamma;
 
 /// Sine of the least height of the camera over the disk's plane; in the plane itself the first crossing is the camera's own place.
@@ -41,7 +41,7 @@ pub struct Eye<'a> {
 
 /// Where a ray goes through gas of the disk.
 #[derive(Clone, Copy, Debug)]
-pub struct Crossing {
+pub struct GasCrossing {
     /// The image order.
     pub order: u8,
     /// Φ, in rad.
@@ -66,7 +66,7 @@ pub struct Look {
     /// Whether it ends in the shadow.
     pub captured: bool,
     /// Gas on the way, in order.
-    crossings: [Option<Crossing>; 3],
+    crossings: [Option<GasCrossing>; 3],
 }
 
 impl<'a> Eye<'a> {
@@ -151,7 +151,7 @@ impl<'a> Eye<'a> {
         let first = self.first_crossing(look.side);
         for order in 1..=3u8 {
             let swept = first + PI * f64::from(order - 1);
-            let Fate::At { u, slope } = light::follow(self.u, ray.slope, swept) else { return };
+            let SweepEnd::At { u, slope } = light::follow(self.u, ray.slope, swept) else { return };
             // Once it runs in under the photon sphere it does not come out again.
             if slope > 0.0 && u > 1.0 {
                 return;
@@ -173,7 +173,7 @@ impl<'a> Eye<'a> {
             let spread = (DEVIATIONS * gas.contrast).exp();
             let opacity = [depth / spread, depth * spread].map(|depth| -(-depth).exp_m1());
             if g.is_finite() && opacity[0].is_finite() {
-                look.crossings[usize::from(order) - 1] = Some(Crossing { order, swept, position, g, opacity });
+                look.crossings[usize::from(order) - 1] = Some(GasCrossing { order, swept, position, g, opacity });
             }
         }
     }
@@ -186,7 +186,7 @@ impl Look {
     }
 
     /// The gas that this direction shows, if it is gas.
-    pub fn shown(&self) -> Option<&Crossing> {
+    pub fn shown(&self) -> Option<&GasCrossing> {
         self.crossings.iter().flatten().find(|crossing| self.through(crossing.swept) * crossing.opacity[0] >= SHOWN)
     }
 

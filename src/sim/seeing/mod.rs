@@ -2,8 +2,8 @@
 //! the picture is projected by.
 //!
 //! [`pointers`] looks in the directions of a coarse grid and in some that it computes (the ring round the shadow, the images of the disk
-//! and of bodies), and for each [`Sight`] takes the place where it is seen best. What gas may stop or a body cover is left out, so that a
-//! pointer never lies on anything else. With light that is not bent (`lensing = false`) nothing of this holds.
+//! and of bodies), and for each [`Phenomenon`] takes the place where it is seen best. What gas may stop or a body cover is left out, so
+//! that a pointer never lies on anything else. With light that is not bent (`lensing = false`) nothing of this holds.
 //!
 //! - `kind`: what can be pointed at.
 //! - `look`: what is seen in one direction; `screen`, `field`: in many.
@@ -19,17 +19,17 @@ mod look;
 mod screen;
 mod target;
 
-pub use body::{Body, Track};
+pub use body::{SeenBody, Track};
 pub use hole::enlargement;
-pub use kind::{Pointer, Sight};
+pub use kind::{Phenomenon, Pointer};
 
 use crate::scene::disk::Gas;
 use crate::spacetime::Observer;
 use crate::spacetime::light::Order;
-use body::Image;
+use body::SeenImage;
 use field::Field;
 use look::Eye;
-use screen::Screen;
+use screen::CameraScreen;
 
 /// What there is to see besides hole and sky.
 #[derive(Clone, Copy, Default)]
@@ -37,19 +37,19 @@ pub struct Scenery<'a> {
     /// The gas of the disk.
     pub disk: Option<&'a Gas>,
     /// The ship that the player is after.
-    pub target: Option<Body<'a>>,
+    pub target: Option<SeenBody<'a>>,
     /// What else may be before something: the player's own ship, the planet.
-    pub others: &'a [Body<'a>],
+    pub others: &'a [SeenBody<'a>],
 }
 
-/// What `camera` sees at T = `time` (r_s/c) on a screen whose width is `aspect` times its height, in the order of [`Sight`], each sight at
-/// most once. All directions are on the screen.
+/// What `camera` sees at T = `time` (r_s/c) on a screen whose width is `aspect` times its height, in the order of [`Phenomenon`], each
+/// sight at most once. All directions are on the screen.
 pub fn pointers(camera: &Observer, time: f64, scenery: &Scenery, aspect: f64) -> Vec<Pointer> {
     let sound = time.is_finite() && camera.field_of_view.is_finite();
     let Some(eye) = Eye::new(camera, scenery.disk).filter(|_| sound) else { return Vec::new() };
-    let screen = Screen::new(camera.field_of_view, aspect);
-    let images = |body: &Body| [0, 1].map(|k| Image::of(&eye, time, body, Order::ALL[k]));
-    let others: Vec<Image> = scenery.others.iter().flat_map(images).flatten().collect();
+    let screen = CameraScreen::new(camera.field_of_view, aspect);
+    let images = |body: &SeenBody| [0, 1].map(|k| SeenImage::of(&eye, time, body, Order::ALL[k]));
+    let others: Vec<SeenImage> = scenery.others.iter().flat_map(images).flatten().collect();
     let own = scenery.target.as_ref().map_or([None; 2], images);
     let mut found = Vec::new();
     let field = Field::new(eye, screen, others.iter().chain(own.iter().flatten()).copied().collect());

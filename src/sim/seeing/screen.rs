@@ -13,18 +13,18 @@ const FIELDS: [f64; 2] = [1e-6, 3.1];
 
 /// A camera's screen.
 #[derive(Clone, Copy, Debug)]
-pub struct Screen {
+pub struct CameraScreen {
     /// Tangents of half the angles that are used, across and up.
     half: [f64; 2],
     rows: usize,
 }
 
-impl Screen {
+impl CameraScreen {
     /// Of a horizontal field of view in rad; `aspect` is width over height.
-    pub fn new(field_of_view: f64, aspect: f64) -> Screen {
+    pub fn new(field_of_view: f64, aspect: f64) -> CameraScreen {
         let across = WITHIN * (0.5 * field_of_view.clamp(FIELDS[0], FIELDS[1])).tan();
         let aspect = if aspect.is_finite() { aspect.clamp(0.05, 20.0) } else { 1.0 };
-        Screen { half: [across, across / aspect], rows: (COLUMNS as f64 / aspect).round().clamp(ROWS[0], ROWS[1]) as usize }
+        CameraScreen { half: [across, across / aspect], rows: (COLUMNS as f64 / aspect).round().clamp(ROWS[0], ROWS[1]) as usize }
     }
 
     /// Where in the part that is used a direction (camera axes) is: −1 to 1 to the right and up; None off it.
@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn depth_is_the_way_to_the_border() {
-        let screen = Screen::new(1.0, 16.0 / 9.0);
+        let screen = CameraScreen::new(1.0, 16.0 / 9.0);
         let inside = |k: usize| (10..17).contains(&(k % COLUMNS)) && (5..12).contains(&(k / COLUMNS));
         let depths = screen.depths(inside);
         assert_eq!(depths[8 * COLUMNS + 13], 4);
@@ -82,7 +82,7 @@ mod tests {
     fn every_cell_is_on_the_screen() {
         for aspect in [0.3, 1.0, 16.0 / 9.0, 4.0] {
             for field in [1e-9, 0.05, 1.0, 3.0, 7.0] {
-                let screen = Screen::new(field, aspect);
+                let screen = CameraScreen::new(field, aspect);
                 assert!(screen.directions().all(|seen| screen.place(seen).is_some()), "{aspect} {field}");
                 assert!(screen.place(DVec3::Z).is_none());
             }

@@ -19,7 +19,7 @@ mod solve;
 
 pub use angles::{Launch, launch, rain_angle, rain_momentum, shadow_angle, static_angle, static_redshift};
 pub use delay::{delay, zero_energy_delay};
-pub use orbit::{Fate, follow};
+pub use orbit::{SweepEnd, follow};
 pub use sky::{sky_angle, sky_slope, swept_to_sky};
 pub use solve::{join, join_near};
 

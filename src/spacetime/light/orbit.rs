@@ -162,7 +162,7 @@ pub(super) fn critical_excess(u: f64, w: f64) -> f64 {
 
 /// Where a ray has come to after sweeping some angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fate {
+pub enum SweepEnd {
     /// It is there.
     At {
         /// u = 1/r, in 1/r_s.
@@ -178,15 +178,15 @@ pub enum Fate {
 
 /// The ray with slope `w` at `u` > 0 after it swept `phi` > 0 (backwards in time, as everywhere here), whatever lies between;
 /// its energy may have either sign, which makes no difference to the path.
-pub fn follow(u: f64, w: f64, phi: f64) -> Fate {
+pub fn follow(u: f64, w: f64, phi: f64) -> SweepEnd {
     match shoot(u, w, critical_excess(u, w), phi) {
-        Continued::At(carried) if u + carried.rise >= 0.0 => Fate::At { u: u + carried.rise, slope: carried.chord * carried.rise - w },
-        Continued::At(_) | Continued::Escaped => Fate::Escaped,
-        Continued::Plunged => Fate::Plunged,
+        Continued::At(carried) if u + carried.rise >= 0.0 => SweepEnd::At { u: u + carried.rise, slope: carried.chord * carried.rise - w },
+        Continued::At(_) | Continued::Escaped => SweepEnd::Escaped,
+        Continued::Plunged => SweepEnd::Plunged,
     }
 }
 
-/// As `Fate`; `At` may have u slightly below 0, a smooth continuation past the sky.
+/// As `SweepEnd`; `At` may have u slightly below 0, a smooth continuation past the sky.
 pub(super) enum Continued {
     At(Carried),
     Escaped,

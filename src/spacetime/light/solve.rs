@@ -3,7 +3,7 @@
 //! At fixed Φ and camera, u(Φ) increases strictly with the slope w (neighbouring rays of one camera meet nowhere in the plane),
 //! from the ray that just escapes to the ray that just falls in, so there is at most one ray and a bracket always holds it.
 
-use super::orbit::{CRITICAL_ENERGY_SQUARED, Carried, Continued, Fate, PHOTON_SPHERE, critical_excess, follow, shoot};
+use super::orbit::{CRITICAL_ENERGY_SQUARED, Carried, Continued, PHOTON_SPHERE, SweepEnd, critical_excess, follow, shoot};
 use super::{Branch, Ray};
 use std::f64::consts::PI;
 
@@ -148,7 +148,7 @@ fn solve(fan: Fan, u_point: f64, swept: f64, guess: f64) -> Option<(f64, f64)> {
                 // Two neighbouring numbers hold the ray between them.
                 let w = fan.start(if low.is_finite() { low } else { high }).slope;
                 return match follow(u, w, swept) {
-                    Fate::At { slope, .. } => Some((fan.of_slope(w), slope)),
+                    SweepEnd::At { slope, .. } => Some((fan.of_slope(w), slope)),
                     _ => None,
                 };
             }

@@ -8,7 +8,7 @@ use lensrunner::render::Renderer;
 use lensrunner::render::aurora::{AuroraAnimation, AuroraFrame, BOTH_POLES, planet_history};
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback;
-use lensrunner::render::instances::View;
+use lensrunner::render::instances::InstanceView;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::aurora::dipole::PLANET_RADIUS;
@@ -92,12 +92,13 @@ fn hold(renderer: &mut Renderer, planet: &Planet, camera: Observer, config: &Gam
     let table = renderer.table().clone();
     let slice = Slice::new(&table, camera.radius());
     let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(SIZE[0]);
-    let view = View { camera: &camera, slice: &slice, pixel, aspect: Some(f64::from(SIZE[1]) / f64::from(SIZE[0])), settings: &settings };
+    let view =
+        InstanceView { camera: &camera, slice: &slice, pixel, aspect: Some(f64::from(SIZE[1]) / f64::from(SIZE[0])), settings: &settings };
     let back = 1.5 * (camera.radius() + planet.orbit.semi_latus_rectum) + 60.0;
     let mut show = AuroraAnimation::new(planet, None, &config.aurora).unwrap();
     let mut frame = show.frame(&view, 0.0, back, 3).expect("the aurora is in sight");
     // No strokes: only where the chords are is asked for.
-    (frame.settings.parts, frame.settings.room) = (1, 8);
+    (frame.settings.parts, frame.settings.capacity) = (1, 8);
     let own = ends_of(renderer, camera, &frame, &settings);
     let mut fine_frame = frame.clone();
     fine_frame.settings.chords = FINE;

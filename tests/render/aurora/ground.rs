@@ -2,7 +2,7 @@
 
 use lensrunner::render::Renderer;
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::gpu::readback::Picture;
+use lensrunner::render::gpu::readback::ReadbackPicture;
 use lensrunner::render::stage::{Stage, settings};
 use lensrunner::scene::{GameConfig, Model, Scene};
 
@@ -37,7 +37,7 @@ struct Parts {
 }
 
 fn green(renderer: &mut Renderer, frame: &FrameInput) -> Vec<f64> {
-    let picture: Picture = renderer.picture(frame, false).unwrap();
+    let picture: ReadbackPicture = renderer.picture(frame, false).unwrap();
     picture.linear.iter().map(|pixel| f64::from(pixel[1])).collect()
 }
 

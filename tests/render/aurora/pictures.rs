@@ -12,7 +12,7 @@ use crate::gpu::GPU;
 use crate::render::support::{apart, aurora_alone, renderer, total};
 
 /// Greens of a picture that stand out from red and blue.
-fn green(picture: &readback::Picture) -> f32 {
+fn green(picture: &readback::ReadbackPicture) -> f32 {
     picture.linear.iter().map(|p| (p[1] - p[0].max(p[2])).max(0.0)).sum()
 }
 
@@ -207,7 +207,7 @@ fn parts_of_a_streak_that_are_one_stroke_change_no_picture() {
         let drawn = [24, 48].map(|parts| {
             let settings = &mut frame.aurora.as_mut().unwrap().settings;
             let streaks = settings.streaks;
-            (settings.parts, settings.room) = (parts, 48 * streaks);
+            (settings.parts, settings.capacity) = (parts, 48 * streaks);
             let picture = renderer.picture(&frame, false).unwrap();
             let strokes: u32 = renderer.aurora_strokes().unwrap().unwrap().iter().sum();
             assert!(f64::from(strokes) < 0.8 * f64::from(parts * streaks), "{name}: {strokes} strokes, {parts} parts");

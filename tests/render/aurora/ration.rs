@@ -2,7 +2,7 @@
 
 use lensrunner::render::aurora::ration::{Ration, shares};
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::gpu::readback::Picture;
+use lensrunner::render::gpu::readback::ReadbackPicture;
 use lensrunner::render::stage::Stage;
 use lensrunner::scene::{self, GameConfig};
 
@@ -83,7 +83,7 @@ fn an_aurora_that_has_become_cheap_has_all_its_streaks_again() {
     assert_eq!(ration.part(), 1.0 / 16.0);
 }
 
-fn light(picture: &Picture) -> [f64; 3] {
+fn light(picture: &ReadbackPicture) -> [f64; 3] {
     [0, 1, 2].map(|k| picture.linear.iter().map(|pixel| f64::from(pixel[k])).sum())
 }
 

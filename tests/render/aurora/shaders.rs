@@ -1,8 +1,8 @@
 //! The aurora on the GPU: its functions against their Rust twins, its history, and its numbers.
 
 use glam::{DVec2, DVec3};
-use lensrunner::render::aurora::rooms::{CORNERS, DRAWS_BYTES, FOURS, Rooms};
-use lensrunner::render::aurora::{AuroraSettings, PYRAMID, RAYS_PERIOD, planet_history, veil};
+use lensrunner::render::aurora::capacities::{CORNERS, DRAWS_BYTES, FOURS, StrokeCapacities};
+use lensrunner::render::aurora::{AuroraSettings, PYRAMID, RAYS_PERIOD, occlusion, planet_history};
 use lensrunner::render::gpu::layout;
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::stage::static_camera;
@@ -238,7 +238,7 @@ fn light_crosses_the_plane_of_the_disk_where_its_ray_does() {
         let camera = static_camera(DVec3::new(9.0, 1.0, 2.5), -DVec3::X, DVec3::Z, 1.0);
         let position = DVec3::new(14.0 * turn.cos(), 14.0 * turn.sin(), 5.0 * (1.7 * turn).sin());
         for order in [1, 2].map(|order| Order::new(order).unwrap()) {
-            for radius in veil::crossings(&camera, position, order, true) {
+            for radius in occlusion::crossings(&camera, position, order, true) {
                 // The place of the crossing lies in the ray's plane and in that of the disk, on one side or the other; its light comes the
                 // same way.
                 let line = camera.position.cross(position).cross(DVec3::Z).normalize();
@@ -272,22 +272,22 @@ fn light_crosses_the_plane_of_the_disk_where_its_ray_does() {
 #[test]
 fn rooms_of_strokes_do_not_overlap() {
     for (finest, levels, images) in [(8, 1, 3), (800, PYRAMID, 2), (64, 4, 3)] {
-        let rooms = Rooms { finest, levels };
-        let numbers = rooms.empty(images);
+        let capacities = StrokeCapacities { finest, levels };
+        let numbers = capacities.empty(images);
         assert_eq!(16 * numbers.len() as u64, u64::from(images) * DRAWS_BYTES);
         let mut after = 0;
         for image in numbers.chunks(FOURS) {
             for pair in 0..levels.div_ceil(2) {
-                // As many as room_of lets in, from the beginning of the first level's and from the end of the second's.
-                let room = CORNERS * (finest >> pair) as u32;
+                // As many as allocate_stroke lets in, from the beginning of the first level's and from the end of the second's.
+                let capacity = CORNERS * (finest >> pair) as u32;
                 let level = 2 * pair as usize;
-                assert_eq!(image[level][2], after, "{rooms:?}, level {level}");
-                // The coarsest has a room of its own.
-                assert!(level + 1 == PYRAMID as usize || image[level + 1][2] == after + room, "{rooms:?}, level {}", level + 1);
-                after += room;
+                assert_eq!(image[level][2], after, "{capacities:?}, level {level}");
+                // The coarsest has a part of its own.
+                assert!(level + 1 == PYRAMID as usize || image[level + 1][2] == after + capacity, "{capacities:?}, level {}", level + 1);
+                after += capacity;
             }
         }
-        assert_eq!(u64::from(after), u64::from(CORNERS) * rooms.all() * u64::from(images));
+        assert_eq!(u64::from(after), u64::from(CORNERS) * capacities.all() * u64::from(images));
     }
 }
 

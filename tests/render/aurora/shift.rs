@@ -1,11 +1,11 @@
 //! The aurora's lines, shifted from one side of a turning planet to the other.
 
 use glam::{DQuat, DVec2, DVec3};
-use lensrunner::render::aurora::shift::Shift;
+use lensrunner::render::aurora::shift::ImageShift;
 use lensrunner::render::aurora::{Colours, SHIFTS, planet_history};
 use lensrunner::render::gpu::layout;
 use lensrunner::render::gpu::shaders::Pass;
-use lensrunner::render::instances::View;
+use lensrunner::render::instances::InstanceView;
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::aurora::lines::kilorayleigh_xyz;
 use lensrunner::scene::planet::Planet;
@@ -38,7 +38,7 @@ fn lines_shift_with_the_planets_rotation() {
     // One ratio for all would miss ten times as much from far. A camera that turns with the planet sees it unshifted.
     for (camera, allowed, differ) in [(far, 0.01, [1.1, 1.3]), (stage.camera(0.0, &[]), 0.01, [1.0, 1.03])] {
         let slice = lensrunner::lensing::Slice::new(renderer.table(), camera.radius());
-        let view = View { camera: &camera, slice: &slice, pixel: 1e-3, aspect: Some(144.0 / 256.0), settings: &settings(&config) };
+        let view = InstanceView { camera: &camera, slice: &slice, pixel: 1e-3, aspect: Some(144.0 / 256.0), settings: &settings(&config) };
         let [least, greatest] = compare(&view, &planet, &history, allowed);
         assert!((differ[0]..differ[1]).contains(&(greatest / least)), "ratios from {least} to {greatest}");
     }
@@ -71,9 +71,9 @@ fn without_doppler_and_beaming_no_shift_is_looked_for() {
     }
 }
 
-fn compare(view: &View, planet: &Planet, history: &History, allowed: f64) -> [f64; 2] {
+fn compare(view: &InstanceView, planet: &Planet, history: &History, allowed: f64) -> [f64; 2] {
     let (camera, aspect, time, order) = (view.camera, view.aspect.unwrap(), 0.0, Order::ALL[0]);
-    let shift = Shift::new(view, time, history, order, planet.radius).unwrap();
+    let shift = ImageShift::new(view, time, history, order, planet.radius).unwrap();
     // What flows past a place with the rain: proper time by T of what moves.
     let slowed = |position: DVec3, velocity: DVec3| (1.0 - (velocity + position / position.length().powf(1.5)).length_squared()).sqrt();
     let flies = velocity(&ShipState::new(camera.position, camera.momentum));
@@ -119,7 +119,7 @@ fn compare(view: &View, planet: &Planet, history: &History, allowed: f64) -> [f6
 
 #[test]
 fn colours_of_lines_are_the_same_in_both_languages() {
-    let shift = Shift { middle: 1.02, slope: DVec2::new(0.05, -0.03), range: [0.96, 1.05] };
+    let shift = ImageShift { middle: 1.02, slope: DVec2::new(0.05, -0.03), range: [0.96, 1.05] };
     let colours = Colours::new(&shift, |g| std::array::from_fn(|line| [g as f32, (g * g) as f32, line as f32 * g as f32, 0.0]));
     let bytes = size_of::<Colours>() as u64;
     let buffer = layout::buffer(&GPU.device, "colours", bytes, wgpu::BufferUsages::UNIFORM);
@@ -153,7 +153,7 @@ fn between_two_ratios_lines_are_as_bright() {
     let green = kilorayleigh_xyz(1.0)[0][1];
     for (range, allowed) in [([0.96, 1.04], 1e-3), ([0.88, 1.05], 2.5e-3)] {
         let middle = 0.5 * (range[0] + range[1]);
-        let shift = Shift { middle, slope: DVec2::new(range[1] - middle, 0.0), range };
+        let shift = ImageShift { middle, slope: DVec2::new(range[1] - middle, 0.0), range };
         let colours = Colours::new(&shift, |g| kilorayleigh_xyz(g).map(|[x, y, z]| [x as f32, y as f32, z as f32, 0.0]));
         for k in 0..=400 {
             let place = DVec2::new(-1.0 + 0.005 * f64::from(k), 0.0);

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 use lensrunner::lensing::Slice;
 use lensrunner::render::aurora::{AuroraAnimation, AuroraFrame};
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::instances::View;
+use lensrunner::render::instances::InstanceView;
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::aurora::random::hash;
 use lensrunner::scene::{self, GameConfig, Scene};
@@ -130,7 +130,7 @@ fn what_leaves_strokes_is_never_left_out() {
             let slice = Slice::new(&table, camera.radius());
             let pixel = 2.0 * (0.5 * fov).tan() / f64::from(SIZE[0]);
             let mut frame = |aspect| {
-                let view = View { camera: &camera, slice: &slice, pixel, aspect, settings: &all_settings };
+                let view = InstanceView { camera: &camera, slice: &slice, pixel, aspect, settings: &all_settings };
                 let back = 1.5 * (camera.radius() + planet.orbit.semi_latus_rectum) + 60.0;
                 show.frame(&view, 0.0, back, 3)
             };

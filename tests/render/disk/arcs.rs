@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 use lensrunner::render::Renderer;
-use lensrunner::render::disk::Disk;
+use lensrunner::render::disk::DrawnDisk;
 use lensrunner::render::disk::arcs::ArcPass;
 use lensrunner::render::disk::sigma::{bearing, sigma};
 use lensrunner::render::disk::types::DiskVertex;
@@ -26,7 +26,7 @@ struct Drawn {
     triangles: Vec<[u32; 3]>,
 }
 
-fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Observer) -> Drawn {
+fn drawn(renderer: &mut Renderer, disk: &DrawnDisk, camera: Observer) -> Drawn {
     renderer.set_disk(Some(disk.clone()));
     let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
     renderer.picture(&input, false).unwrap();

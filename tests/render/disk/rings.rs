@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use lensrunner::lensing::Slice;
 use lensrunner::render::Renderer;
-use lensrunner::render::disk::Disk;
+use lensrunner::render::disk::DrawnDisk;
 use lensrunner::render::disk::circles::{AZIMUTHS, Look, SeenCircle, azimuth, pixel_angle, radii};
 use lensrunner::render::disk::view::DiskView;
 use lensrunner::render::frame::FrameInput;
@@ -155,7 +155,7 @@ fn every_pixel_of_a_wide_disk_is_a_number() {
     for (gap, turbulence) in [(0.0, 1.0), (0.0, 0.0), (0.01, 1.0)] {
         let mut config = GameConfig::default();
         (config.disk.outer, config.disk.gap, config.disk.turbulence) = (200.0, gap, turbulence);
-        renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
+        renderer.set_disk(Some(DrawnDisk::new(config.disk.clone(), &config)));
         for degrees in [80.0, 60.0, 30.0] {
             let input = FrameInput {
                 camera: camera(27.0, degrees, 60f64.to_radians()),
@@ -179,7 +179,7 @@ fn no_edge_is_seen_where_the_azimuth_changes_its_sign() {
     let mut config = GameConfig::default();
     config.disk.turbulence = 0.0;
     let mut renderer = renderer(size);
-    renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
+    renderer.set_disk(Some(DrawnDisk::new(config.disk.clone(), &config)));
     let camera = static_camera(DVec3::new(0.0, -8.0, -0.05), DVec3::new(0.5, 1.0, -0.1), DVec3::Z, 90f64.to_radians());
     let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
     let linear = renderer.picture(&input, false).unwrap().linear;

@@ -1,6 +1,6 @@
 //! Adapters that lack what is optional draw the same pictures.
 
-use lensrunner::render::gpu::readback::Picture;
+use lensrunner::render::gpu::readback::ReadbackPicture;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::stage::{Stage, settings};
 use lensrunner::render::{Gpu, Renderer};
@@ -9,7 +9,7 @@ use lensrunner::scene::{self, GameConfig};
 use crate::gpu::GPU;
 use crate::render::support::{apart, surroundings, total};
 
-fn drawn(gpu: &Gpu, surroundings: &Surroundings, name: &str, size: [u32; 2]) -> Picture {
+fn drawn(gpu: &Gpu, surroundings: &Surroundings, name: &str, size: [u32; 2]) -> ReadbackPicture {
     let mut config = GameConfig::default();
     config.aurora.streaks = 4000;
     let mut renderer = Renderer::new(gpu, surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);

@@ -4,8 +4,8 @@ use std::mem::size_of;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
 use lensrunner::lensing::methods::Method;
+use lensrunner::render::aurora::capacities::{CORNERS, LIT_TILES};
 use lensrunner::render::aurora::ground::GroundLight;
-use lensrunner::render::aurora::rooms::{CORNERS, LIT_TILES};
 use lensrunner::render::aurora::{
     AuroraSettings, BOTH_POLES, CHORD_END_BYTES, Colours, CurtainNode, DEPTH_TILES, LEAST_DEPTH_TILE, LINEAR, PYRAMID, RED_EVERY,
     REFERENCE_BYTES, SHIFTS, SMOOTH, STROKE_BYTES, Segment,
@@ -131,8 +131,8 @@ fn structs_have_one_layout_in_both_languages() {
         ("disk::types::Counters", fields!(DiskCounters: vertices, indices, arcs, coarse, caught, stage)),
         (
             "aurora::streaks::AuroraSettings",
-            fields!(AuroraSettings: streaks, chords, parts, row_nodes, newest_row, segments, room, flags, row_seconds, ahead, clock, contrast,
-            point, levels, midnight, green_top, green_foot, red_top, red_foot),
+            fields!(AuroraSettings: streaks, chords, parts, row_nodes, newest_row, segments, capacity, flags, row_seconds, ahead, clock,
+            contrast, point, levels, midnight, green_top, green_foot, red_top, red_foot),
         ),
         ("aurora::streaks::Segment", fields!(Segment: first_streak, streaks, first_node, span, collisions, width, length)),
         ("aurora::streaks::CurtainNode", fields!(CurtainNode: place, flux, along)),
@@ -203,10 +203,10 @@ fn constants_have_one_value_in_both_languages() {
         ("gpu::types::FLAG_HOLD_EXPOSURE", whole(flags::HOLD_EXPOSURE)),
         ("gpu::types::FLAG_MIDPOINT", whole(flags::MIDPOINT)),
         ("gpu::types::INSTANCE_TWO_SIDED", whole(placed::TWO_SIDED)),
-        ("gpu::types::INSTANCE_HELD", whole(placed::HELD)),
+        ("gpu::types::INSTANCE_STATIC", whole(placed::STATIC)),
         ("gpu::types::INSTANCE_THIN", whole(placed::THIN)),
         ("gpu::types::INSTANCE_MINUS", whole(placed::MINUS)),
-        ("gpu::types::INSTANCE_NARROW", whole(placed::NARROW)),
+        ("gpu::types::INSTANCE_NARROW_RING", whole(placed::NARROW_RING)),
         ("gpu::types::INSTANCE_OWN", whole(placed::OWN)),
         ("instances::instance::INSTANCE_TEXELS", size_of::<Instance>() as f64 / 16.0),
         ("gpu::bindings::TABLE_ROW", TABLE_ROW as f64),

@@ -3,10 +3,10 @@
 
 use glam::{DMat3, DQuat, DVec3, Vec3};
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::gpu::readback::Picture;
+use lensrunner::render::gpu::readback::ReadbackPicture;
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::gpu::types::Cap;
-use lensrunner::render::instances::{Motion, Placed};
+use lensrunner::render::instances::{ObjectMotion, Placed};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::spacetime::Observer;
@@ -21,12 +21,12 @@ fn camera() -> Observer {
 }
 
 fn ball(bench: &Bench, position: DVec3, settings: &Settings) -> Vec<Placed> {
-    let (camera, object) = (camera(), bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, 1.0, 1));
+    let (camera, object) = (camera(), bench.object(ObjectMotion::Static { position, attitude: DQuat::IDENTITY }, 1.0, 1));
     bench.place_by(camera.field_of_view / f64::from(bench.renderer.size()[0]), &camera, 0.0, &object, settings)
 }
 
 /// How many pixels show the ball, and how many of its triangles were left out.
-fn drawn(bench: &mut Bench, placed: Vec<Placed>, settings: Settings) -> (usize, u32, Picture) {
+fn drawn(bench: &mut Bench, placed: Vec<Placed>, settings: Settings) -> (usize, u32, ReadbackPicture) {
     let picture = bench.renderer.picture(&FrameInput { camera: camera(), time: 0.0, placed, aurora: None, settings }, true).unwrap();
     let counters = bench.renderer.counters().unwrap();
     assert_eq!(counters.complaint().is_some_and(|text| text.contains("outside")), counters.outside > 0);

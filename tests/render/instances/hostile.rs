@@ -8,12 +8,12 @@ use lensrunner::lensing::Slice;
 use lensrunner::render::Renderer;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::types::Counters;
-use lensrunner::render::instances::{DrawnObject, Illumination, Motion, View, instances_of};
+use lensrunner::render::instances::{DrawnObject, Illumination, InstanceView, ObjectMotion, instances_of};
 use lensrunner::render::models::ModelRange;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::{Stage, settings, third_person};
-use lensrunner::scene::crew::Crew;
 use lensrunner::scene::model::import::load_or_placeholder;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::flight::Command;
 use lensrunner::sim::{History, Moment};
@@ -44,11 +44,11 @@ static YARD: LazyLock<Mutex<Yard>> = LazyLock::new(|| {
 
 impl Yard {
     /// What the frame at T = `time` counts, seen by `camera`; and whether every number of its light is finite.
-    fn frame(&mut self, camera: Observer, time: f64, motion: Motion) -> (Counters, bool) {
+    fn frame(&mut self, camera: Observer, time: f64, motion: ObjectMotion) -> (Counters, bool) {
         let settings = Settings { stars: false, milky_way: false, bloom: 0.0, ..settings(&GameConfig::default()) };
         let slice = Slice::new(self.renderer.table(), camera.radius());
         let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(SIZE[0]);
-        let view = View { camera: &camera, slice: &slice, pixel, aspect: None, settings: &settings };
+        let view = InstanceView { camera: &camera, slice: &slice, pixel, aspect: None, settings: &settings };
         let light = Illumination { ambient: [1.0; 3], ..Illumination::default() };
         let (model, coarse) = (self.ship, self.ship);
         let object = DrawnObject { model, coarse, stand_ins: &[], motion, reach: self.reach, scale: LENGTH, id: 1, light };
@@ -83,12 +83,12 @@ fn check(history: &History, time: f64, turn: DVec3) -> Result<(), TestCaseError>
         return Ok(());
     }
     let mut yard = YARD.lock().unwrap_or_else(PoisonError::into_inner);
-    let (moving, is_finite) = yard.frame(camera, time, Motion::Flying(history));
+    let (moving, is_finite) = yard.frame(camera, time, ObjectMotion::Flying(history));
     prop_assert!(is_finite, "light without numbers");
     prop_assert_eq!(moving.caught, 0, "{:?} of a ship at {} with p = {}", moving, now.position, now.momentum);
     // Held where its light left it, as far as the camera tells.
     let left = state_at(history, time - camera.position.distance(now.position));
-    let (still, _) = yard.frame(camera, time, Motion::Held { position: left.position, attitude: left.attitude });
+    let (still, _) = yard.frame(camera, time, ObjectMotion::Static { position: left.position, attitude: left.attitude });
     let least = work(&still).max(f64::from(yard.ship.vertices[1]));
     prop_assert!(work(&moving) <= MOST * least, "{} of {}: {moving:?}, at rest {still:?}", work(&moving), work(&still));
     Ok(())
@@ -151,7 +151,7 @@ proptest! {
         let scene = scene::load("06-the-long-shot").unwrap();
         let mut config = GameConfig::default();
         (config.clock.pace, config.ship.turn_rate) = (pace, rate);
-        let mut moment = Moment::with_crew(&scene, &config, seed, Crew::Hands);
+        let mut moment = Moment::with_pilot(&scene, &config, seed, PilotKind::Hands);
         moment.advance(steps);
         check(moment.histories()[0], moment.time(), turn)?;
     }
@@ -164,7 +164,7 @@ fn a_surface_goes_through_the_camera() {
     let (scene, mut config) = (scene::load("06-the-long-shot").unwrap(), GameConfig::default());
     config.clock.pace = 1.5;
     let config = scene.config(&config, scene::Difficulty::Easy);
-    let mut moment = Moment::with_crew(&scene, &config, 1, Crew::Hands);
+    let mut moment = Moment::with_pilot(&scene, &config, 1, PilotKind::Hands);
     moment.advance((12.25 / config.clock.step) as u64 + 1);
     let nobody = History::nobody();
     let histories: Vec<&History> = moment.histories().into_iter().chain([&nobody]).chain(moment.bolts()).collect();

@@ -2,4 +2,4 @@
 
 mod bounds;
 mod hostile;
-mod swing;
+mod local_motion;

@@ -6,7 +6,7 @@ use glam::DVec2;
 use lensrunner::scene::aurora::curtains::curtains;
 use lensrunner::scene::aurora::curve::Curve;
 use lensrunner::scene::aurora::motion::poisson::Poisson;
-use lensrunner::scene::aurora::motion::{Motion, Node, Plan, RAYS_LENGTH, STEP, TOP_SPEED, jump};
+use lensrunner::scene::aurora::motion::{AuroraMotion, Node, Plan, RAYS_LENGTH, STEP, TOP_SPEED, jump};
 use lensrunner::scene::aurora::random::uniform;
 use lensrunner::scene::config::AuroraConfig;
 use lensrunner::scene::planet::AuroraShape;
@@ -16,12 +16,12 @@ fn even(curves: Vec<Curve>, nodes: usize, field: f64) -> Plan {
     Plan { curves, nodes, field, renewal: f64::INFINITY, contrast: 0.0, seed: 1 }
 }
 
-fn steps(motion: &mut Motion, count: u32) {
+fn steps(motion: &mut AuroraMotion, count: u32) {
     (0..count).for_each(|_| motion.step());
 }
 
 /// The first node of each piece of a curtain between two nodes.
-fn pieces(motion: &Motion) -> impl Iterator<Item = usize> {
+fn pieces(motion: &AuroraMotion) -> impl Iterator<Item = usize> {
     motion.starts().windows(2).flat_map(|window| window[0]..window[1] - 1)
 }
 
@@ -56,7 +56,7 @@ fn straight(half: f64) -> Curve {
 
 #[test]
 fn a_charged_sheet_has_its_field_on_both_sides() {
-    let mut motion = Motion::new(even(vec![straight(500.0)], 600, 40.0), 0.0);
+    let mut motion = AuroraMotion::new(even(vec![straight(500.0)], 600, 40.0), 0.0);
     motion.step();
     // 60 km from the middle of a sheet 1000 km long, a finite sheet has 92 % of an endless one's (2/π atan(500/60)); the frame adds a
     // little.
@@ -74,7 +74,7 @@ fn what_lies_beside_a_sheet_drifts_as_over_the_north_of_the_earth() {
     for side in [60.0, -60.0] {
         let at = |x| DVec2::new(x, side);
         let beside = Curve { control: [at(-1.0), at(-0.3), at(0.3), at(1.0)], ..straight(1.0) };
-        let mut motion = Motion::new(even(vec![straight(500.0), beside], 600, 40.0), 0.0);
+        let mut motion = AuroraMotion::new(even(vec![straight(500.0), beside], 600, 40.0), 0.0);
         let first = motion.starts()[1];
         let before = motion.nodes()[first].place;
         motion.step();
@@ -99,9 +99,9 @@ fn waves_of_a_sheet_grow_as_those_of_a_vortex_sheet() {
     // 32 and 104 waves round a ring 2000 km wide, 196 and 60 km long; its grid has cells of 42 km. Two km high: low against their length,
     // and high against what the quarters' Bézier curves, not quite circles, do in these 20 s.
     for waves in [32.0, 104.0] {
-        let mut motion = Motion::new(even(ring(1000.0, 2.0, 0.25 * waves), 1200, 30.0), 0.0);
+        let mut motion = AuroraMotion::new(even(ring(1000.0, 2.0, 0.25 * waves), 1200, 30.0), 0.0);
         // The part of the radius that goes with so many waves, of the nodes in their order: quarter after quarter, evenly.
-        let amplitude = |motion: &Motion| {
+        let amplitude = |motion: &AuroraMotion| {
             let part = |quarter: usize, window: &[usize]| {
                 let last = window[1] - 1 - window[0];
                 let angle = |k: usize| 0.5 * PI * waves * (quarter as f64 + k as f64 / last as f64);
@@ -131,7 +131,7 @@ fn waves_of_a_sheet_grow_as_those_of_a_vortex_sheet() {
 #[test]
 fn the_field_is_that_of_all_charges_and_their_images() {
     for curves in [curtains(AuroraShape::Arcs, 3), curtains(AuroraShape::Oval, 3)] {
-        let mut motion = Motion::new(Plan { curves, nodes: 2048, field: 50.0, renewal: 60.0, contrast: 0.7, seed: 3 }, 0.0);
+        let mut motion = AuroraMotion::new(Plan { curves, nodes: 2048, field: 50.0, renewal: 60.0, contrast: 0.7, seed: 3 }, 0.0);
         steps(&mut motion, 60);
         let (centre, side) = motion.square();
         let d = motion.thickness();
@@ -171,7 +171,7 @@ fn the_field_is_that_of_all_charges_and_their_images() {
 }
 
 /// The greatest angle in degrees between a piece of the curtains and the same piece at rest, and the greatest distance from there, km.
-fn folded(motion: &Motion, rest: &[Node]) -> (f64, f64) {
+fn folded(motion: &AuroraMotion, rest: &[Node]) -> (f64, f64) {
     let now = motion.nodes();
     let turned =
         pieces(motion).map(|k| (now[k + 1].place - now[k].place).angle_to(rest[k + 1].place - rest[k].place).abs()).fold(0.0, f64::max);
@@ -191,7 +191,7 @@ fn curtains_fold_and_never_run_away() {
     };
     for (field, renewal) in [(50.0, 60.0), (1e6, 60.0), (500.0, 1000.0), (f64::NAN, 60.0), (50.0, 0.0), (50.0, f64::NAN)] {
         let curves = vec![knot, straight(300.0)];
-        let mut motion = Motion::new(Plan { curves, nodes: 300, field, renewal, contrast: 1.0, seed: 4 }, 0.0);
+        let mut motion = AuroraMotion::new(Plan { curves, nodes: 300, field, renewal, contrast: 1.0, seed: 4 }, 0.0);
         let rest = motion.nodes().to_vec();
         for _ in 0..240 {
             motion.step();
@@ -215,7 +215,7 @@ fn curtains_of_a_planet_fold_again_and_again() {
     let config = AuroraConfig::default();
     for (shape, nodes) in [(AuroraShape::Arcs, 1024), (AuroraShape::Oval, 3500)] {
         let (renewal, contrast) = (config.renewal, config.contrast);
-        let mut motion = Motion::new(Plan { renewal, contrast, seed: 3, ..even(curtains(shape, 3), nodes, config.field) }, 0.0);
+        let mut motion = AuroraMotion::new(Plan { renewal, contrast, seed: 3, ..even(curtains(shape, 3), nodes, config.field) }, 0.0);
         let rest = motion.nodes().to_vec();
         let mut over = Vec::new();
         for minute in 1..=4 {
@@ -239,7 +239,7 @@ fn curtains_of_a_planet_fold_again_and_again() {
 #[test]
 fn brightness_goes_round_an_oval_without_a_seam() {
     let plan = Plan { curves: ring(2300.0, 20.0, 5.0), nodes: 3000, field: 50.0, renewal: 60.0, contrast: 1.0, seed: 3 };
-    let mut motion = Motion::new(plan, 100.0);
+    let mut motion = AuroraMotion::new(plan, 100.0);
     motion.step();
     let nodes = motion.nodes();
     for (quarter, window) in motion.starts().windows(2).enumerate() {
@@ -259,13 +259,14 @@ fn brightness_goes_round_an_oval_without_a_seam() {
 #[test]
 fn short_surges_come_to_as_much_as_long_ones() {
     for renewal in [1.0, 1.5, 2.0, 6.0] {
-        let mut motion = Motion::new(Plan { contrast: 1.0, seed: 4, ..even(vec![straight(500.0)], 300, 100.0) }, 0.0);
+        let mut motion = AuroraMotion::new(Plan { contrast: 1.0, seed: 4, ..even(vec![straight(500.0)], 300, 100.0) }, 0.0);
         let rest = motion.nodes().to_vec();
         steps(&mut motion, 20);
         motion.change(0.0, renewal, 1.0);
         // A step still goes on with half of the speed before it.
         steps(&mut motion, 2);
-        let away = |motion: &Motion| motion.nodes().iter().zip(&rest).map(|(now, rest)| now.place.distance(rest.place)).collect::<Vec<_>>();
+        let away =
+            |motion: &AuroraMotion| motion.nodes().iter().zip(&rest).map(|(now, rest)| now.place.distance(rest.place)).collect::<Vec<_>>();
         let before = away(&motion);
         steps(&mut motion, 12);
         let periods = 12.0 * STEP / renewal;

@@ -6,7 +6,7 @@ use glam::DVec2;
 use lensrunner::scene::aurora::curtains::curtains;
 use lensrunner::scene::aurora::curve::between_nodes;
 use lensrunner::scene::aurora::motion::near::{Charge, Near};
-use lensrunner::scene::aurora::motion::{Motion, Plan};
+use lensrunner::scene::aurora::motion::{AuroraMotion, Plan};
 use lensrunner::scene::aurora::random::uniform;
 use lensrunner::scene::planet::AuroraShape;
 
@@ -84,7 +84,7 @@ fn between_nodes_at_any_distance_there_is_no_loop() {
 fn rows_go_on_beyond_the_ends_of_curves() {
     for shape in [AuroraShape::Oval, AuroraShape::Arcs] {
         let plan = Plan { curves: curtains(shape, 3), nodes: 2000, field: 50.0, renewal: 60.0, contrast: 0.7, seed: 3 };
-        let mut motion = Motion::new(plan, 0.0);
+        let mut motion = AuroraMotion::new(plan, 0.0);
         (0..60).for_each(|_| motion.step());
         let row: Vec<DVec2> = motion.row().map(|node| node.place).collect();
         let curves = motion.starts().windows(2).enumerate();

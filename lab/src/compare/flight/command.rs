@@ -9,15 +9,15 @@ use super::hands::{self, Tally};
 use super::jump::{Jump, jumps};
 use super::moments::{choose, survey};
 use crate::compare::Shown;
-use crate::compare::command::{CompareError, Contestant};
+use crate::compare::command::{CompareError, DrawCase};
 use crate::compare::fault::{Fault, Kind, main_fault};
 use crate::compare::judged::{Judged, judge};
 use crate::compare::random::case_file::CaseFile;
 use crate::compare::random::collect;
-use crate::compare::random::command::{Run, bar, leave, one, tell};
+use crate::compare::random::command::{Run, bar, leave, one, report};
 use crate::compare::random::outcome::{Outcome, Row, summary};
 use lensrunner::judge::case::{Case, TraceError};
-use lensrunner::scene::crew::Crew;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{self, GameConfig, Scene};
 use lensrunner::sim::Moment;
 
@@ -26,11 +26,11 @@ pub type Shower<'a> = dyn Fn(&Case) -> Result<Vec<Shown>, String> + 'a;
 
 /// What to judge.
 #[derive(Clone, Debug)]
-pub struct FlightRequest {
+pub struct FlightCompareRequest {
     /// The scene's name or file.
     pub scene: String,
     /// Who flies the player's ship. Hands fly at five paces by turns, and their flights are seen as a player looks.
-    pub pilot: Crew,
+    pub pilot: PilotKind,
     /// How many chases.
     pub seeds: u64,
     /// The seed of the first; those of the others follow it.
@@ -46,7 +46,7 @@ pub struct FlightRequest {
 }
 
 /// Flies and judges; leaves each moment that fails in the folder as a scene of its own; prints a table. Gives a row for each moment.
-pub fn run(request: &FlightRequest, contestant: &Contestant, shower: &Shower) -> Result<Vec<Row>, CompareError> {
+pub fn run(request: &FlightCompareRequest, contestant: &DrawCase, shower: &Shower) -> Result<Vec<Row>, CompareError> {
     if let Some(at) = request.at.filter(|at| !(0.0..=1e5).contains(at)) {
         return Err(TraceError::Input(format!("--at {at}: T must be a number from 0 to 100000 r_s/c")).into());
     }
@@ -68,7 +68,7 @@ pub fn run(request: &FlightRequest, contestant: &Contestant, shower: &Shower) ->
         rows: Vec::new(),
         tally: Tally::default(),
     };
-    let by_hands = request.pilot == Crew::Hands;
+    let by_hands = request.pilot == PilotKind::Hands;
     for seed in request.first..request.first.saturating_add(request.seeds) {
         bar.set_message(format!("seed {seed}: flying"));
         let step = config.clock.step;
@@ -83,7 +83,7 @@ pub fn run(request: &FlightRequest, contestant: &Contestant, shower: &Shower) ->
         // What was flown short has fewer.
         bar.dec_length(count - (chosen.len() as u64).min(count));
         bar.set_message(format!("seed {seed}"));
-        flight.judge(seed, &chosen, &mut |row| tell(&bar, row))?;
+        flight.judge(seed, &chosen, &mut |row| report(&bar, row))?;
     }
     bar.finish_and_clear();
     say(summary(&flight.rows).trim_end());
@@ -99,11 +99,11 @@ pub fn run(request: &FlightRequest, contestant: &Contestant, shower: &Shower) ->
 }
 
 struct Flight<'a> {
-    request: &'a FlightRequest,
+    request: &'a FlightCompareRequest,
     scene: &'a Scene,
     text: &'a str,
     config: GameConfig,
-    contestant: &'a Contestant<'a>,
+    contestant: &'a DrawCase<'a>,
     shower: &'a Shower<'a>,
     rows: Vec<Row>,
     tally: Tally,
@@ -120,7 +120,7 @@ struct Still {
 impl Flight<'_> {
     /// Flies one chase and judges it after these steps.
     fn judge(&mut self, seed: u64, steps: &[u64], done: &mut dyn FnMut(&Row)) -> Result<(), CompareError> {
-        let mut moment = Moment::with_crew(self.scene, &self.config, seed, self.request.pilot);
+        let mut moment = Moment::with_pilot(self.scene, &self.config, seed, self.request.pilot);
         let mut now = 0;
         // Of the frame at the step `now`, if it was drawn.
         let mut kept: Option<Still> = None;
@@ -153,7 +153,7 @@ impl Flight<'_> {
     /// A frame of the moment `number`; none where the camera of hands is nowhere.
     fn still(&self, moment: &Moment, seed: u64, number: u64) -> Option<Still> {
         let (scene, config, size) = (self.scene.clone(), self.config.clone(), self.request.size);
-        let (case, eye) = if self.request.pilot == Crew::Hands {
+        let (case, eye) = if self.request.pilot == PilotKind::Hands {
             let (eye, camera, hidden) = eye(self.scene, &self.config, moment, seed, number)?;
             (Case::seen(scene, config, moment, camera, hidden, size), Some(eye))
         } else {

@@ -10,7 +10,7 @@ use super::eye::{Eye, own_ship};
 use crate::chart::{Sheet, SheetError};
 use crate::compare::judged::Judged;
 use crate::compare::random::draw::chance;
-use lensrunner::scene::crew::Crew;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{GameConfig, Scene};
 use lensrunner::sim::Moment;
 
@@ -27,7 +27,7 @@ const FRESH: u64 = 48;
 
 /// The steps after which `count` moments of the flight are looked at, in order: a quarter of them soon after a bolt was fired, if any was.
 pub fn choose(scene: &Scene, config: &GameConfig, seed: u64, until: f64, count: usize) -> Vec<u64> {
-    let mut moment = Moment::with_crew(scene, config, seed, Crew::Hands);
+    let mut moment = Moment::with_pilot(scene, config, seed, PilotKind::Hands);
     let most = (until / config.clock.step).floor() as u64;
     let (mut steps, mut fired) = (0, Vec::new());
     while steps < most && !moment.is_decided() {

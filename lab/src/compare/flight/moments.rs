@@ -7,7 +7,7 @@ use glam::DVec3;
 use rand::RngExt;
 
 use crate::compare::random::draw::chance;
-use lensrunner::scene::crew::Crew;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{GameConfig, Mount, Scene};
 use lensrunner::sim::{History, Moment};
 use lensrunner::spacetime::light::{Branch, Order, connect};
@@ -26,8 +26,8 @@ pub struct Survey {
 }
 
 /// Flies `scene`, the player's ship by `pilot`, until the chase is decided or T = `until`, and looks after each step where ships are seen.
-pub fn survey(scene: &Scene, config: &GameConfig, seed: u64, until: f64, pilot: Crew) -> Survey {
-    let mut moment = Moment::with_crew(scene, config, seed, pilot);
+pub fn survey(scene: &Scene, config: &GameConfig, seed: u64, until: f64, pilot: PilotKind) -> Survey {
+    let mut moment = Moment::with_pilot(scene, config, seed, pilot);
     let most = (until / config.clock.step).floor() as u64;
     let mut angles = Vec::new();
     while (angles.len() as u64) < most && !moment.is_decided() {

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::grid::{FULL, Grid, thin_parts};
-use crate::compare::Frame;
+use crate::compare::ContestantFrame;
 use crate::compare::fault::{Fault, Kind, Limits};
-use lensrunner::judge::picture::Picture;
+use lensrunner::judge::picture::TracedPicture;
 
 /// The size of one image of one object.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +44,7 @@ impl Area {
 
 /// The areas of all images that either picture shows, by object and order. `is_thin` tells the images that are compared by the area they
 /// cover.
-pub fn areas(judge: &Picture, frame: &Frame, names: &[String], is_thin: &dyn Fn(u32, u32) -> bool) -> Vec<Area> {
+pub fn areas(judge: &TracedPicture, frame: &ContestantFrame, names: &[String], is_thin: &dyn Fn(u32, u32) -> bool) -> Vec<Area> {
     let grid = Grid::of(judge.size);
     let mut found: BTreeMap<(u32, u32), Area> = BTreeMap::new();
     let mut of = |object: u32, order: u32, change: &dyn Fn(&mut Area)| {

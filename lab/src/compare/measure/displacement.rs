@@ -10,9 +10,9 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 pub use super::probe::{Point, Probe};
-use crate::compare::Frame;
+use crate::compare::ContestantFrame;
 use crate::compare::deadline::Deadline;
-use lensrunner::judge::picture::Picture;
+use lensrunner::judge::picture::TracedPicture;
 
 /// What came of measuring at a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +49,7 @@ impl Default for Effort {
 
 /// The pixels where both show the same object in the same order, for each image so many as are measured. They are in an order in which any
 /// first part is spread over the picture, so that little is lost where time runs out.
-fn measurable(judge: &Picture, frame: &Frame, most: usize) -> Vec<usize> {
+fn measurable(judge: &TracedPicture, frame: &ContestantFrame, most: usize) -> Vec<usize> {
     let mut images: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
     for (i, (layer, shown)) in judge.layers.iter().zip(&frame.shown).enumerate() {
         if layer.object > 0 && (layer.object, layer.order) == (shown.object, shown.order) {
@@ -67,7 +67,7 @@ fn measurable(judge: &Picture, frame: &Frame, most: usize) -> Vec<usize> {
 }
 
 /// The displacement at each pixel where both show the same object in the same order; None elsewhere, and where `effort` ends before.
-pub fn displacements(judge: &Picture, frame: &Frame, probe: &dyn Probe, effort: &Effort) -> Vec<Option<Measured>> {
+pub fn displacements(judge: &TracedPicture, frame: &ContestantFrame, probe: &dyn Probe, effort: &Effort) -> Vec<Option<Measured>> {
     let width = judge.size[0] as usize;
     let measured = measurable(judge, frame, effort.pixels);
     let doubted: Mutex<BTreeMap<(u32, u32), usize>> = Mutex::default();

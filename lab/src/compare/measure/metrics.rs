@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use super::area::{Area, areas};
 use super::displacement::{Effort, Measured, Probe, displacements};
 pub use crate::compare::fault::Limits;
-use crate::compare::{Frame, Shown};
-use lensrunner::judge::picture::Picture;
+use crate::compare::{ContestantFrame, Shown};
+use lensrunner::judge::picture::TracedPicture;
 
 /// Displacements between the same surface points in the two pictures, in pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -77,12 +77,19 @@ pub struct Verdict {
 
 /// Compares. `probe` asks the judge between the pixels; `names` has the name of each object by number, from 1; `difference` is the ꟻLIP of
 /// each pixel.
-pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[String], difference: &[f32]) -> Verdict {
+pub fn compare(judge: &TracedPicture, frame: &ContestantFrame, probe: &dyn Probe, names: &[String], difference: &[f32]) -> Verdict {
     compare_with(judge, frame, probe, names, difference, &Effort::default())
 }
 
 /// The same with no more effort for displacements than this.
-pub fn compare_with(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[String], difference: &[f32], effort: &Effort) -> Verdict {
+pub fn compare_with(
+    judge: &TracedPicture,
+    frame: &ContestantFrame,
+    probe: &dyn Probe,
+    names: &[String],
+    difference: &[f32],
+    effort: &Effort,
+) -> Verdict {
     let [width, height] = judge.size.map(|side| side as usize);
     let pair = Pair::new(judge, frame, names);
     let measured = displacements(judge, frame, probe, effort);
@@ -113,8 +120,8 @@ type Image = (u32, u32);
 
 /// Both pictures, and how their images are compared.
 struct Pair<'a> {
-    judge: &'a Picture,
-    frame: &'a Frame,
+    judge: &'a TracedPicture,
+    frame: &'a ContestantFrame,
     names: &'a [String],
     grid: Grid,
     /// Images that are compared by the area they cover.
@@ -140,7 +147,7 @@ struct Pixel<'a> {
 }
 
 impl<'a> Pair<'a> {
-    fn new(judge: &'a Picture, frame: &'a Frame, names: &'a [String]) -> Pair<'a> {
+    fn new(judge: &'a TracedPicture, frame: &'a ContestantFrame, names: &'a [String]) -> Pair<'a> {
         let (thin, by_centres) = (thin_images(judge, frame), drawn_by_centres(frame));
         Pair { judge, frame, names, grid: Grid::of(judge.size), thin, by_centres }
     }
@@ -316,7 +323,7 @@ fn all_around([x, y]: [f64; 2], holds: impl Fn(f64, f64) -> bool) -> bool {
 /// Objects and orders that are compared by the area they cover: those that nowhere fill a pixel to the judge; and those that the contestant
 /// draws by coverage, if they hardly do: they fill a single pixel, or, drawn out along the ring, an image may be narrow and yet fill a
 /// pixel here and there.
-fn thin_images(judge: &Picture, frame: &Frame) -> HashSet<Image> {
+fn thin_images(judge: &TracedPicture, frame: &ContestantFrame) -> HashSet<Image> {
     // Pixels touched and pixels filled.
     let mut counts: BTreeMap<Image, [usize; 2]> = BTreeMap::new();
     for &(object, order, share) in judge.shares.iter().flatten() {
@@ -333,7 +340,7 @@ fn thin_images(judge: &Picture, frame: &Frame) -> HashSet<Image> {
 
 /// Objects and orders that the contestant shows, and nowhere by coverage. It shows what it meets at the centre of each pixel, so that a
 /// line along a row of pixels is there in all of them or in none: the judge's single rays tell whether it is right, and more rays do not.
-fn drawn_by_centres(frame: &Frame) -> HashSet<Image> {
+fn drawn_by_centres(frame: &ContestantFrame) -> HashSet<Image> {
     let images = |by_coverage: bool| {
         let drawn = move |coverage: f32| (coverage < 1.0) == by_coverage;
         frame.shown.iter().filter(move |shown| shown.object > 0 && drawn(shown.coverage)).map(Shown::image)

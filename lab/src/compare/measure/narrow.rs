@@ -6,9 +6,9 @@ use rayon::prelude::*;
 
 use super::displacement::Probe;
 use super::grid::Grid;
-use crate::compare::Frame;
+use crate::compare::ContestantFrame;
 use crate::compare::deadline::Deadline;
-use lensrunner::judge::picture::Picture;
+use lensrunner::judge::picture::TracedPicture;
 
 /// Rays along each side of a pixel in which a narrow image lies.
 pub const SIDE: u32 = 3;
@@ -16,12 +16,18 @@ pub const SIDE: u32 = 3;
 /// Replaces the judge's shares, of a single ray a pixel, by those of [`SIDE`]² rays in all pixels that a narrow image touches or may touch:
 /// one that nowhere shows all around a pixel that shows it, so that it is less than three pixels wide; or that the contestant draws by
 /// coverage. From the pixels in which either picture shows it the search goes on to their neighbours as long as the judge meets it there.
-pub fn see_again(judge: &mut Picture, frame: &Frame, probe: &dyn Probe) {
+pub fn see_again(judge: &mut TracedPicture, frame: &ContestantFrame, probe: &dyn Probe) {
     see_again_but(judge, frame, probe, &BTreeSet::new(), &Deadline::never());
 }
 
 /// The same but for these images, object and order; ends at the deadline, with the single rays where no more were sent.
-pub fn see_again_but(judge: &mut Picture, frame: &Frame, probe: &dyn Probe, but: &BTreeSet<(u32, u32)>, deadline: &Deadline) {
+pub fn see_again_but(
+    judge: &mut TracedPicture,
+    frame: &ContestantFrame,
+    probe: &dyn Probe,
+    but: &BTreeSet<(u32, u32)>,
+    deadline: &Deadline,
+) {
     let grid = Grid::of(judge.size);
     let mut narrow = narrow_images(judge, frame, &grid);
     narrow.retain(|image| !but.contains(image));
@@ -46,7 +52,7 @@ pub fn see_again_but(judge: &mut Picture, frame: &Frame, probe: &dyn Probe, but:
 /// Images of which so much too much is shown, or too little, that a single ray a pixel tells: more rays would only take their time. Of an
 /// image that is right each pixel that is touched adds 1/4 at most to the variance of what single rays count; here it is off by six
 /// standard deviations, over many pixels.
-pub fn grossly_wrong(judge: &Picture, frame: &Frame) -> BTreeSet<(u32, u32)> {
+pub fn grossly_wrong(judge: &TracedPicture, frame: &ContestantFrame) -> BTreeSet<(u32, u32)> {
     let mut counts: BTreeMap<(u32, u32), [f64; 3]> = BTreeMap::new();
     for (layer, shown) in judge.layers.iter().zip(&frame.shown) {
         if layer.object > 0 {
@@ -69,7 +75,7 @@ const SURELY: f64 = 6.0;
 const MANY: f64 = 300.0;
 
 /// Objects and orders of which no pixel has only its own around it, or that the contestant draws by coverage.
-fn narrow_images(judge: &Picture, frame: &Frame, grid: &Grid) -> BTreeSet<(u32, u32)> {
+fn narrow_images(judge: &TracedPicture, frame: &ContestantFrame, grid: &Grid) -> BTreeSet<(u32, u32)> {
     let key = |i: usize| (judge.layers[i].object, judge.layers[i].order);
     let wide: BTreeSet<_> = (0..judge.layers.len()).filter(|&i| grid.around(i).iter().all(|&j| key(j) == key(i))).map(key).collect();
     let all =

@@ -2,9 +2,9 @@
 
 use glam::{DVec2, DVec3};
 
-use lensrunner::judge::picture::{Motion, Thing, World};
+use lensrunner::judge::picture::{BodyMotion, Thing, World};
 use lensrunner::judge::trace::PixelCamera;
-use lensrunner::judge::{Branch, shoot};
+use lensrunner::judge::{EnergySign, shoot};
 
 /// Local error of the integration of each ray that is shot.
 const TOLERANCE: f64 = 1e-13;
@@ -19,8 +19,8 @@ const STEPS: usize = 60;
 pub fn seen_at(world: &World, camera: &PixelCamera, thing: &Thing, order: u32, body: DVec3) -> Option<DVec2> {
     let at_rest = body * thing.scale;
     let look = match thing.motion {
-        Motion::Held { position, attitude } => sighting(world, camera, position + attitude * at_rest, order)?.0,
-        Motion::Flying(line) => {
+        BodyMotion::Static { position, attitude } => sighting(world, camera, position + attitude * at_rest, order)?.0,
+        BodyMotion::Flying(line) => {
             let place = |time: f64| line.at(time).place_of(at_rest);
             let time = emission_time(world.time, |time| Some(sighting(world, camera, place(time), order)?.1))?;
             sighting(world, camera, place(time), order)?.0
@@ -43,7 +43,7 @@ fn sighting(world: &World, camera: &PixelCamera, place: DVec3, order: u32) -> Op
     let outwards = eye / l;
     let across = place - outwards * place.dot(outwards);
     let phi = across.length().atan2(place.dot(outwards));
-    let seen = shoot(r, phi, l, order, Branch::Plus, TOLERANCE)?;
+    let seen = shoot(r, phi, l, order, EnergySign::Plus, TOLERANCE)?;
     let side = across.normalize_or_zero() * if order.is_multiple_of(2) { -1.0 } else { 1.0 };
     Some((outwards * seen.psi_rain.cos() + side * seen.psi_rain.sin(), seen.delay))
 }

@@ -13,7 +13,7 @@ use super::outcome::{Outcome, Row, summary};
 use super::place;
 use super::reduce::reduce;
 use crate::chart::Sheet;
-use crate::compare::command::{CompareError, Contestant, difference};
+use crate::compare::command::{CompareError, DrawCase, difference};
 use crate::compare::deadline::Deadline;
 use crate::compare::fault::{Fault, main_fault};
 use crate::compare::judged::{Judged, Terms, judge};
@@ -79,7 +79,7 @@ pub struct Keep<'a> {
 
 /// Judges `count` cases that nobody chose, drawn from a seed, from the number `first` on; leaves each that fails in the folder; prints a
 /// table. Gives a row for each case.
-pub fn run(seed: u64, first: u64, count: u64, run: &Run, contestant: &Contestant) -> Result<Vec<Row>, CompareError> {
+pub fn run(seed: u64, first: u64, count: u64, run: &Run, contestant: &DrawCase) -> Result<Vec<Row>, CompareError> {
     let config = run.begin()?;
     let bar = bar(count);
     let mut rows = Vec::new();
@@ -90,7 +90,7 @@ pub fn run(seed: u64, first: u64, count: u64, run: &Run, contestant: &Contestant
         let notes = vec![format!("case {number} of seed {seed} ({}): {command}", drawn.corner.word())];
         let file = CaseFile { notes, text: drawn.text, at: drawn.at, size: drawn.size };
         let row = one(&name, drawn.corner.word(), &file, &config, &run.terms, run.keep(), contestant)?;
-        tell(&bar, &row);
+        report(&bar, &row);
         rows.push(row);
     }
     bar.finish_and_clear();
@@ -108,7 +108,7 @@ pub fn run_files(
     config: Option<&Path>,
     terms: &Terms,
     keep: Option<Keep>,
-    contestant: &Contestant,
+    contestant: &DrawCase,
 ) -> Result<Vec<Row>, CompareError> {
     check_terms(terms)?;
     let config = configuration(config)?;
@@ -123,7 +123,7 @@ pub fn run_files(
     for (path, file) in cases {
         let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let row = one(&name, "file", &file, &config, terms, keep, contestant)?;
-        tell(&bar, &row);
+        report(&bar, &row);
         rows.push(row);
     }
     bar.finish_and_clear();
@@ -139,7 +139,7 @@ pub fn one(
     config: &GameConfig,
     terms: &Terms,
     keep: Option<Keep>,
-    contestant: &Contestant,
+    contestant: &DrawCase,
 ) -> Result<Row, CompareError> {
     let started = Instant::now();
     let case = file.case(Path::new(&format!("{name}.toml")), config)?;
@@ -161,13 +161,7 @@ pub fn one(
 }
 
 /// The case made smaller while it fails in the same way, with what came of it; None if that could not be done.
-fn reduced(
-    file: &CaseFile,
-    fault: &Fault,
-    config: &GameConfig,
-    terms: &Terms,
-    contestant: &Contestant,
-) -> Option<(CaseFile, Case, Judged)> {
+fn reduced(file: &CaseFile, fault: &Fault, config: &GameConfig, terms: &Terms, contestant: &DrawCase) -> Option<(CaseFile, Case, Judged)> {
     let deadline = Deadline::after(REDUCTION * terms.seconds);
     let path = Path::new("reduced.toml");
     let is_fair = |case: &Case| place::is_fair(&case.scene, config, case.time);
@@ -233,7 +227,7 @@ pub fn bar(count: u64) -> ProgressBar {
 }
 
 /// Moves the bar on, and says what a case came to, where something is to be said.
-pub fn tell(bar: &ProgressBar, row: &Row) {
+pub fn report(bar: &ProgressBar, row: &Row) {
     bar.inc(1);
     if let Some(line) = row.remark() {
         // Also where there is no terminal for the bar.

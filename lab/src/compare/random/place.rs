@@ -107,8 +107,8 @@ pub fn ship_momentum(chance: &mut StdRng, corner: Corner, position: DVec3) -> DV
     rest_to_rain(hovering, own) + hovering * gamma(own)
 }
 
-/// Where a thing of this size is put; `held` if it may not move, so not inside the horizon.
-pub fn thing(chance: &mut StdRng, corner: Corner, eye: DVec3, size: f64, held: bool) -> DVec3 {
+/// Where a thing of this size is put; `is_static` if it may not move, so not inside the horizon.
+pub fn thing(chance: &mut StdRng, corner: Corner, eye: DVec3, size: f64, is_static: bool) -> DVec3 {
     let n = eye.normalize();
     let way = match corner {
         Corner::Axis | Corner::Small => 0,
@@ -131,7 +131,7 @@ pub fn thing(chance: &mut StdRng, corner: Corner, eye: DVec3, size: f64, held: b
         // Close to the horizon.
         2 => {
             let gap = log_uniform(chance, 0.02, 0.5);
-            direction(chance) * (1.0 + gap + if held { 0.55 * size } else { 0.0 })
+            direction(chance) * (1.0 + gap + if is_static { 0.55 * size } else { 0.0 })
         }
         // Astride the plane of the disk.
         3 => {
@@ -149,10 +149,10 @@ pub fn thing(chance: &mut StdRng, corner: Corner, eye: DVec3, size: f64, held: b
 pub fn is_fair(scene: &Scene, config: &GameConfig, at: f64) -> bool {
     let assembly = scene.assemble(config);
     let Ok(eye) = (if at == 0.0 { eye_at_start(scene) } else { eye_at(scene, config, at) }) else { return false };
-    let held = assembly.objects.iter().all(|object| {
+    let apart = assembly.objects.iter().all(|object| {
         let reach = 1.02 * f64::from(assembly.models[object.model].radius()) * object.scale;
         match object.body {
-            Body::Held { position, .. } => position.length() - reach > 1.002 && position.distance(eye) > reach,
+            Body::Static { position, .. } => position.length() - reach > 1.002 && position.distance(eye) > reach,
             Body::Ship(ship) => {
                 let state = &scene.ships[ship].state;
                 state.position.distance(eye) > reach.max(0.3) && (state.position.length() > 1.0 || energy(state) > 0.0)
@@ -165,7 +165,7 @@ pub fn is_fair(scene: &Scene, config: &GameConfig, at: f64) -> bool {
         // Where it is now, and where it was when its light left.
         (0..20).all(|k| apart(at - f64::from(k)))
     });
-    held && planet
+    apart && planet
 }
 
 fn eye_at_start(scene: &Scene) -> Result<DVec3, ()> {

@@ -10,7 +10,7 @@
 
 use std::f64::consts::{E, PI};
 
-use lensrunner::lensing::methods::{Projector, Query, Sight};
+use lensrunner::lensing::methods::{ProjectionInput, Projector, Sight};
 use lensrunner::spacetime::light::{Branch, Order};
 
 use super::{Frame, Method, each};
@@ -44,8 +44,8 @@ impl Approximation {
         x * (2.0 - x) * r * r * r / (r - 1.0)
     }
 
-    fn solve(self, query: Query) -> Option<Sight> {
-        let Query { r, phi, camera: l } = query;
+    fn solve(self, input: ProjectionInput) -> Option<Sight> {
+        let ProjectionInput { r, phi, camera: l } = input;
         if r <= 1.0 || l <= 1.0 {
             return None;
         }
@@ -90,13 +90,13 @@ impl Approximation {
 }
 
 impl Projector for Approximation {
-    fn project(&self, query: Query, order: Order, _branch: Branch) -> Option<Sight> {
-        if order.number() == 1 { self.solve(query) } else { None }
+    fn project(&self, input: ProjectionInput, order: Order, _branch: Branch) -> Option<Sight> {
+        if order.number() == 1 { self.solve(input) } else { None }
     }
 }
 
 impl Method for Approximation {
     fn frame(&self, _l: f64) -> Box<dyn Frame + '_> {
-        each(|point, _| self.solve(point.query))
+        each(|point, _| self.solve(point.input))
     }
 }

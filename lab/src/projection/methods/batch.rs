@@ -5,7 +5,7 @@ use wide::f32x8;
 
 use lensrunner::lensing::lookup::{LEAST_LAPSE2, LensRay, YOUNG, lens_lookup_aged};
 use lensrunner::lensing::methods::table::{in_range, seen};
-use lensrunner::lensing::methods::{Projector, Query, Sight, Table, Vertex};
+use lensrunner::lensing::methods::{ProjectionInput, Projector, Sight, Table, Vertex};
 use lensrunner::lensing::single::{BEND_RANGE, BEND_START, HALF_TURN, LensCamera, SMALLEST_SWEEP, SWEEP_LENGTH};
 use lensrunner::lensing::table::slice::{HEADER, Slice};
 use lensrunner::spacetime::light::{Branch, Order};
@@ -323,11 +323,11 @@ impl Frame for Batches {
 }
 
 impl Projector for Batch {
-    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
-        if branch == Branch::Minus || !in_range(query) {
-            return self.0.project(query, order, branch);
+    fn project(&self, input: ProjectionInput, order: Order, branch: Branch) -> Option<Sight> {
+        if branch == Branch::Minus || !in_range(input) {
+            return self.0.project(input, order, branch);
         }
-        seen(&look_up_batch(&Slice::new(&self.0.0, query.camera), &[query.into()], order).ray(0), query)
+        seen(&look_up_batch(&Slice::new(&self.0.0, input.camera), &[input.into()], order).ray(0), input)
     }
 }
 

@@ -4,7 +4,7 @@
 //! time is a third equation. It starts from the table's closed form, which is generous.
 
 use lensrunner::lensing::double::{self, LensCamera, bent_sweep, slope_guess};
-use lensrunner::lensing::methods::{Projector, Query, Sight, sight};
+use lensrunner::lensing::methods::{ProjectionInput, Projector, Sight, sight};
 use lensrunner::spacetime::light::{Branch, Order};
 
 use super::{Frame, Method, each};
@@ -55,9 +55,9 @@ impl Integrate {
         Ok(state)
     }
 
-    fn solve(&self, cam: &LensCamera, query: Query, order: Order) -> Option<Sight> {
-        let (a, c, swept) = (cam.a, 1.0 / query.r, order.swept(query.phi));
-        let (mut w, _) = slope_guess(cam, -(query.r - query.camera) / (query.r * query.camera), bent_sweep(swept));
+    fn solve(&self, cam: &LensCamera, input: ProjectionInput, order: Order) -> Option<Sight> {
+        let (a, c, swept) = (cam.a, 1.0 / input.r, order.swept(input.phi));
+        let (mut w, _) = slope_guess(cam, -(input.r - input.camera) / (input.r * input.camera), bent_sweep(swept));
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         for _ in 0..MOST_SHOTS {
             let step = match self.shoot(a, w, swept) {
@@ -100,18 +100,18 @@ fn between(low: f64, high: f64, a: f64) -> f64 {
 }
 
 impl Projector for Integrate {
-    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
-        let both_inside = query.r <= 1.0;
-        if both_inside || branch == Branch::Minus && query.camera < 1.0 && query.r < 1.0 {
+    fn project(&self, input: ProjectionInput, order: Order, branch: Branch) -> Option<Sight> {
+        let both_inside = input.r <= 1.0;
+        if both_inside || branch == Branch::Minus && input.camera < 1.0 && input.r < 1.0 {
             return None;
         }
-        self.solve(&double::camera(query.camera), query, order).filter(|sight| sight.psi_rain.is_finite() && sight.delay.is_finite())
+        self.solve(&double::camera(input.camera), input, order).filter(|sight| sight.psi_rain.is_finite() && sight.delay.is_finite())
     }
 }
 
 impl Method for Integrate {
     fn frame(&self, l: f64) -> Box<dyn Frame + '_> {
         let cam = double::camera(l);
-        each(move |point, order| self.solve(&cam, point.query, order))
+        each(move |point, order| self.solve(&cam, point.input, order))
     }
 }

@@ -6,7 +6,7 @@ mod integrate;
 mod paper;
 
 use lensrunner::lensing::methods::table::look_up;
-use lensrunner::lensing::methods::{self as game, Flat, Load, Projector, Query, Sight, Table, Vertex, filed};
+use lensrunner::lensing::methods::{self as game, Flat, Load, ProjectionInput, Projector, Sight, Table, Vertex, filed};
 use lensrunner::lensing::{FULL_NODES, SMALL_NODES, Scheme, Slice};
 use lensrunner::spacetime::light::{Branch, Order};
 
@@ -52,14 +52,14 @@ fn each<'a, R: 'a>(answer: impl Fn(&Vertex, Order) -> R + 'a) -> Box<dyn Frame +
 struct Plain(Box<dyn Projector>);
 
 impl Projector for Plain {
-    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
-        self.0.project(query, order, branch)
+    fn project(&self, input: ProjectionInput, order: Order, branch: Branch) -> Option<Sight> {
+        self.0.project(input, order, branch)
     }
 }
 
 impl Method for Plain {
     fn frame(&self, _l: f64) -> Box<dyn Frame + '_> {
-        each(|point, order| self.project(point.query, order, Branch::Plus))
+        each(|point, order| self.project(point.input, order, Branch::Plus))
     }
 }
 

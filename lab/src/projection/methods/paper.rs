@@ -5,7 +5,7 @@ use wide::f32x8;
 
 use lensrunner::lensing::lookup::source_point::source_point;
 use lensrunner::lensing::methods::paper::answers;
-use lensrunner::lensing::methods::{Projector, Query, Sight, Vertex};
+use lensrunner::lensing::methods::{ProjectionInput, Projector, Sight, Vertex};
 use lensrunner::lensing::paper_format::CHANNELS;
 use lensrunner::lensing::single::{LensCamera, camera};
 use lensrunner::lensing::table::spline;
@@ -153,12 +153,12 @@ impl Frame for Batches<'_> {
 }
 
 impl Projector for PaperBatch {
-    fn project(&self, query: Query, order: Order, _branch: Branch) -> Option<Sight> {
-        if !answers(query, order) {
+    fn project(&self, input: ProjectionInput, order: Order, _branch: Branch) -> Option<Sight> {
+        if !answers(input, order) {
             return None;
         }
-        let [psi, delay] = self.fetch(&self.0.ready(query.camera), &[query.into()], order)[0].map(f64::from);
-        Some(Sight::from_static(psi, delay, query.camera))
+        let [psi, delay] = self.fetch(&self.0.ready(input.camera), &[input.into()], order)[0].map(f64::from);
+        Some(Sight::from_static(psi, delay, input.camera))
     }
 }
 
@@ -173,12 +173,12 @@ impl Method for PaperBatch {
 }
 
 impl Projector for Paper {
-    fn project(&self, query: Query, order: Order, _branch: Branch) -> Option<Sight> {
-        if !answers(query, order) {
+    fn project(&self, input: ProjectionInput, order: Order, _branch: Branch) -> Option<Sight> {
+        if !answers(input, order) {
             return None;
         }
-        let [psi, delay] = self.fetch(&self.ready(query.camera), &query.into(), order).map(f64::from);
-        Some(Sight::from_static(psi, delay, query.camera))
+        let [psi, delay] = self.fetch(&self.ready(input.camera), &input.into(), order).map(f64::from);
+        Some(Sight::from_static(psi, delay, input.camera))
     }
 }
 

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use glam::{DVec3, Vec3};
 
-use super::{Triangle, View, rounded};
+use super::{SceneView, Triangle, rounded};
 
 /// The bunny stands in a cube of edge 1 around the origin.
-pub const VIEW: View = View::new([0.3, -1.6, 0.4], [0.0; 3]);
+pub const VIEW: SceneView = SceneView::new([0.3, -1.6, 0.4], [0.0; 3]);
 
 /// What a file must be.
 const FORMAT: &str = "binary_little_endian 1.0, vertices of float x, y, z and faces of uchar int vertex_indices";

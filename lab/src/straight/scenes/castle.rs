@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::{Triangle, View, rounded};
+use super::{SceneView, Triangle, rounded};
 
 /// From a hill in front of the gate.
-pub const VIEW: View = View::new([26.0, 15.0, 12.0], [0.0, 0.0, 2.5]);
+pub const VIEW: SceneView = SceneView::new([26.0, 15.0, 12.0], [0.0, 0.0, 2.5]);
 
 /// Distance of the towers from the keep.
 const RING: f64 = 10.0;

@@ -12,7 +12,7 @@ pub type Triangle = [[f32; 3]; 3];
 
 /// A pinhole camera for straight rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct View {
+pub struct SceneView {
     /// Where it stands.
     pub eye: [f64; 3],
     /// What it looks at.
@@ -21,10 +21,10 @@ pub struct View {
     pub field_of_view: f64,
 }
 
-impl View {
+impl SceneView {
     /// A view of 45°, the angle of all scenes here.
-    pub const fn new(eye: [f64; 3], target: [f64; 3]) -> View {
-        View { eye, target, field_of_view: std::f64::consts::FRAC_PI_4 }
+    pub const fn new(eye: [f64; 3], target: [f64; 3]) -> SceneView {
+        SceneView { eye, target, field_of_view: std::f64::consts::FRAC_PI_4 }
     }
 
     /// The unit direction through a point of the picture; `across` and `up` run from −1 to 1 over its height, `across` further over its
@@ -54,13 +54,13 @@ impl View {
 
 /// A scene and where it is seen from.
 #[derive(Clone, Debug)]
-pub struct Scene {
+pub struct TestScene {
     /// The name in charts, as in Sei 2008.
     pub name: &'static str,
     /// What is there.
     pub triangles: Vec<Triangle>,
     /// Where it is seen from.
-    pub view: View,
+    pub view: SceneView,
 }
 
 /// Corners computed in f64, rounded once.

@@ -5,22 +5,22 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
 use glam::{DMat3, DVec3};
 
-use super::{Triangle, View, rounded};
+use super::{SceneView, Triangle, rounded};
 
 /// Cells along the edge of one of a sphere's six faces, and quads of a cone in a quarter turn (OUTPUT_RESOLUTION).
 const RESOLUTION: usize = 3;
 
 /// balls4A of Sei 2008; B stands half as far, C four times as far.
-pub const BALLS_VIEW: View = View::new([2.1, 1.3, 1.7], [0.0; 3]);
+pub const BALLS_VIEW: SceneView = SceneView::new([2.1, 1.3, 1.7], [0.0; 3]);
 
 /// The view of `tree`.
-pub const TREE_VIEW: View = View::new([4.5, 0.4, 2.0], [0.0, 0.0, 1.5]);
+pub const TREE_VIEW: SceneView = SceneView::new([4.5, 0.4, 2.0], [0.0, 0.0, 1.5]);
 
-impl View {
+impl SceneView {
     /// The same view from `factor` times as far.
-    pub fn from_distance(&self, factor: f64) -> View {
+    pub fn from_distance(&self, factor: f64) -> SceneView {
         let eye = std::array::from_fn(|i| self.target[i] + factor * (self.eye[i] - self.target[i]));
-        View { eye, ..*self }
+        SceneView { eye, ..*self }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The tree of eight children a node: one instruction tests eight boxes, or eight triangles.
 
 use crate::straight::bounds::Bounds;
-use crate::straight::build::{Settings, build};
+use crate::straight::build::{BvhSettings, build};
 use crate::straight::single::bounds;
 use crate::straight::tree::{Costs, MAX_DEPTH, Tree};
 
@@ -81,7 +81,7 @@ pub struct Wide {
 }
 
 /// What the heuristic weighs for this tree: the 2 : 1 of Sei 2008 also measured best here, with leaves that fill a block at most.
-pub const SETTINGS: Settings = Settings { costs: Costs { node: 2.0, primitive: 1.0 }, max_leaf: 8 };
+pub const SETTINGS: BvhSettings = BvhSettings { costs: Costs { node: 2.0, primitive: 1.0 }, max_leaf: 8 };
 
 impl Wide {
     /// Builds the tree; triangles with a corner that is not finite are left out.

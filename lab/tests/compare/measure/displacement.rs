@@ -1,9 +1,9 @@
 //! Where the judge is asked for a surface point.
 
 use glam::{DVec2, DVec3};
-use lensrunner::judge::picture::{Layer, Picture};
+use lensrunner::judge::picture::{Layer, TracedPicture};
 use lensrunner_lab::compare::measure::displacement::{Effort, Measured, Point, Probe, displacements};
-use lensrunner_lab::compare::{Frame, Shown};
+use lensrunner_lab::compare::{ContestantFrame, Shown};
 
 /// A wall of which each point is its own place on the screen; before it, a rod a sixth of a pixel wide, whose points are far from the
 /// wall's.
@@ -46,7 +46,7 @@ fn a_part_narrower_than_a_pixel_is_found_beside_the_centre() {
     let size = [5, 5];
     let centre = |i: usize| [(i % 5) as f32 + 0.5, (i / 5) as f32 + 0.5];
     let layers: Vec<Layer> = (0..25).map(|i| Layer { object: 1, order: 1, uv: centre(i), ..Layer::default() }).collect();
-    let judge = Picture {
+    let judge = TracedPicture {
         size,
         light: vec![[0.0; 3]; 25],
         layers,
@@ -62,7 +62,7 @@ fn a_part_narrower_than_a_pixel_is_found_beside_the_centre() {
     shown[12].body = [502.8, 2.5, 0.0];
     // A point of nothing.
     shown[24].body = [4.5, 6.5, 1.0];
-    let frame = Frame { size, light: vec![[0.0; 3]; 25], bare: vec![[0.0; 3]; 25], shown };
+    let frame = ContestantFrame { size, light: vec![[0.0; 3]; 25], bare: vec![[0.0; 3]; 25], shown };
     let found = displacements(&judge, &frame, &Rod, &Effort::default());
     let Some(Measured::Pixels(rod)) = found[12] else { panic!("{:?}", found[12]) };
     assert!((rod - 0.3).abs() < 1e-3, "{rod}");

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use glam::DVec3;
 use lensrunner::judge::case::Case;
-use lensrunner::judge::picture::{Picture, Pose, Quality, Worldline};
+use lensrunner::judge::picture::{Pose, Sampling, TracedPicture, Worldline};
 use lensrunner::scene::{GameConfig, Scene};
-use lensrunner_lab::compare::Frame;
+use lensrunner_lab::compare::ContestantFrame;
 use lensrunner_lab::compare::command::difference;
 use lensrunner_lab::compare::measure::displacement::Effort;
 use lensrunner_lab::compare::measure::metrics::{Limits, Verdict, compare_with};
@@ -32,21 +32,21 @@ fn scene(text: &str) -> Case {
     Case::new(scene, GameConfig::default(), 0.0, SIZE)
 }
 
-fn trace(case: &Case) -> Picture {
-    case.trace(&Quality { samples: 1, tolerance: 1e-10, packet: 8 }, false, &|_| ())
+fn trace(case: &Case) -> TracedPicture {
+    case.trace(&Sampling { samples: 1, tolerance: 1e-10, packet: 8 }, false, &|_| ())
 }
 
-fn verdict(case: &Case, judge: &Picture, frame: &Frame) -> Verdict {
+fn verdict(case: &Case, judge: &TracedPicture, frame: &ContestantFrame) -> Verdict {
     verdict_with(case, judge, frame, &Effort::default())
 }
 
 /// With no more than this for displacements.
-fn verdict_with(case: &Case, judge: &Picture, frame: &Frame, effort: &Effort) -> Verdict {
+fn verdict_with(case: &Case, judge: &TracedPicture, frame: &ContestantFrame, effort: &Effort) -> Verdict {
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
     compare_with(judge, frame, &probe(case, 1e-10), &names, &difference(judge, frame), effort)
 }
 
-fn faults(case: &Case, judge: &Picture, frame: &Frame) -> Vec<String> {
+fn faults(case: &Case, judge: &TracedPicture, frame: &ContestantFrame) -> Vec<String> {
     verdict(case, judge, frame).faults(&Limits::default())
 }
 
@@ -56,7 +56,7 @@ fn tells(faults: &[String], words: &[&str]) {
 }
 
 /// The picture moved to the right by whole pixels.
-fn moved(frame: &Frame, by: usize) -> Frame {
+fn moved(frame: &ContestantFrame, by: usize) -> ContestantFrame {
     let width = frame.size[0] as usize;
     let mut moved = frame.clone();
     for i in 0..frame.shown.len() {
@@ -72,7 +72,7 @@ fn moved(frame: &Frame, by: usize) -> Frame {
 fn a_perfect_picture_passes_and_its_faults_are_measured() {
     let case = scene(BALL);
     let judge = trace(&case);
-    let perfect = Frame::of(&judge, &case);
+    let perfect = ContestantFrame::of(&judge, &case);
     let good = verdict(&case, &judge, &perfect);
     // Where displacements are beside the point.
     let few = Effort { pixels: 40, doubtful: 4, ..Effort::default() };
@@ -132,7 +132,7 @@ fn dropped_triangles_are_holes() {
     // The remedy of Yamashita 2012: triangles that the axis meets are left out.
     let case = scene(&BALL.replace("4.0, 0.0, -12.0", "1.0, 0.0, -12.0"));
     let judge = trace(&case);
-    let mut broken = Frame::of(&judge, &case);
+    let mut broken = ContestantFrame::of(&judge, &case);
     let (axis, model) = (case.camera.observer.position.normalize(), &case.assembly.models[0]);
     let position = DVec3::new(1.0, 0.0, -12.0);
     let mut dropped = 0;
@@ -163,12 +163,12 @@ fn dropped_triangles_are_holes() {
 fn a_missing_or_wrong_order_is_found() {
     let case = scene(BALL);
     let judge = trace(&case);
-    let mut none = Frame::of(&judge, &case);
+    let mut none = ContestantFrame::of(&judge, &case);
     for shown in none.shown.iter_mut().filter(|shown| shown.order == 2) {
         *shown = Default::default();
     }
     tells(&faults(&case, &judge, &none), &["order 2", "pixels differ"]);
-    let mut wrong = Frame::of(&judge, &case);
+    let mut wrong = ContestantFrame::of(&judge, &case);
     for shown in wrong.shown.iter_mut().filter(|shown| shown.order == 2) {
         shown.order = 1;
     }
@@ -181,7 +181,7 @@ fn coarse_triangles_are_found() {
     // each pixel, what straight interpolation over the triangle gives.
     let case = scene(BALL);
     let judge = trace(&case);
-    let mut flat = Frame::of(&judge, &case);
+    let mut flat = ContestantFrame::of(&judge, &case);
     let model = &case.assembly.models[0];
     let position = DVec3::new(4.0, 0.0, -12.0);
     let width = SIZE[0] as usize;
@@ -207,10 +207,11 @@ fn coarse_triangles_are_found() {
 
 /// Where, in pixels, the camera sees a point outside the hole in order 1, by shooting.
 fn seen(case: &Case, point: DVec3) -> Option<[f64; 2]> {
-    use lensrunner::judge::{Branch, shoot};
+    use lensrunner::judge::{EnergySign, shoot};
     let n = case.camera.observer.position.normalize();
     let across = point - n * point.dot(n);
-    let sight = shoot(point.length(), across.length().atan2(point.dot(n)), case.camera.observer.position.length(), 1, Branch::Plus, 1e-12)?;
+    let sight =
+        shoot(point.length(), across.length().atan2(point.dot(n)), case.camera.observer.position.length(), 1, EnergySign::Plus, 1e-12)?;
     let look = n * sight.psi_rain.cos() + across.normalize() * sight.psi_rain.sin();
     Some(case.camera.seen_at(look)?.0)
 }
@@ -232,7 +233,7 @@ milky_way = false
     case.assembly.objects[0].scale = 2.0;
     let judge = trace(&case);
     assert!(judge.layers.iter().filter(|layer| layer.object == 1).count() > 40);
-    assert_eq!(faults(&case, &judge, &Frame::of(&judge, &case)), Vec::<String>::new());
+    assert_eq!(faults(&case, &judge, &ContestantFrame::of(&judge, &case)), Vec::<String>::new());
     // Seen where it is now, as if light took no time: a body that stands still at its place of T = 0.
     struct Still(Pose);
     impl Worldline for Still {
@@ -242,8 +243,8 @@ milky_way = false
     }
     let now = Worldline::at(&case.histories[0], 0.0);
     let still = Still(now);
-    let broken = case.trace_with(&[&still], &Quality { samples: 1, tolerance: 1e-10, packet: 8 }, false, &|_| ());
-    tells(&faults(&case, &judge, &Frame::of(&broken, &case)), &["quarry order 1"]);
+    let broken = case.trace_with(&[&still], &Sampling { samples: 1, tolerance: 1e-10, packet: 8 }, false, &|_| ());
+    tells(&faults(&case, &judge, &ContestantFrame::of(&broken, &case)), &["quarry order 1"]);
 }
 
 #[test]
@@ -262,7 +263,7 @@ aurora = \"none\"
     let mut config = GameConfig::default();
     config.render.lensing = false;
     let case = Case::new(scene, config, 0.0, [160, 90]);
-    let picture = case.trace(&Quality { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
+    let picture = case.trace(&Sampling { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
     let pixels: Vec<usize> = (0..picture.layers.len()).filter(|&i| picture.layers[i].object == 1).collect();
     let planet = case.scene.planet.unwrap();
     // Straight light: the emission time by iteration, which converges as the planet is slow.
@@ -302,10 +303,10 @@ size = 0.25
 triangles = 20
 ",
     );
-    let judge = case.trace(&Quality { samples: 5, tolerance: 1e-9, packet: 8 }, false, &|_| ());
+    let judge = case.trace(&Sampling { samples: 5, tolerance: 1e-9, packet: 8 }, false, &|_| ());
     // What a renderer hands in that draws thin images by coverage: exactly, doubled, and none.
     let drawn = |factor: f32| {
-        let mut frame = Frame::of(&judge, &case);
+        let mut frame = ContestantFrame::of(&judge, &case);
         for (shown, shares) in frame.shown.iter_mut().zip(&judge.shares) {
             *shown = Default::default();
             if let Some(&(object, order, _)) = shares.first()
@@ -332,17 +333,17 @@ fn colours_of_the_disk_are_judged_where_the_judge_knows_them() {
     let mut case = Case::new(lensrunner::scene::load("disk").unwrap(), GameConfig::default(), 0.0, [96, 54]);
     case.scene.sky.stars = false;
     case.scene.sky.milky_way = false;
-    let traced = |samples| case.trace(&Quality { samples, tolerance: 1e-8, packet: 8 }, false, &|_| ());
+    let traced = |samples| case.trace(&Sampling { samples, tolerance: 1e-8, packet: 8 }, false, &|_| ());
     let judge = traced(4);
     let limits = Limits { flip: Some(colour_limit(&judge)), ..Limits::default() };
-    let found = |frame: &Frame| verdict(&case, &judge, frame).faults(&limits);
-    assert_eq!(found(&Frame::of(&judge, &case)), Vec::<String>::new());
+    let found = |frame: &ContestantFrame| verdict(&case, &judge, frame).faults(&limits);
+    assert_eq!(found(&ContestantFrame::of(&judge, &case)), Vec::<String>::new());
     // Another grid of rays sees the same disk.
-    assert_eq!(found(&Frame::of(&traced(5), &case)), Vec::<String>::new());
+    assert_eq!(found(&ContestantFrame::of(&traced(5), &case)), Vec::<String>::new());
     // Moved by two pixels; a third darker.
-    let mut darker = Frame::of(&judge, &case);
+    let mut darker = ContestantFrame::of(&judge, &case);
     darker.light.iter_mut().for_each(|rgb| *rgb = rgb.map(|c| c / 1.5));
-    for broken in [moved(&Frame::of(&judge, &case), 2), darker] {
+    for broken in [moved(&ContestantFrame::of(&judge, &case), 2), darker] {
         tells(&found(&broken), &["FLIP"]);
     }
 }

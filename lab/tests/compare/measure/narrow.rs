@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use lensrunner::judge::case::Case;
-use lensrunner::judge::picture::{Picture, Quality};
+use lensrunner::judge::picture::{Sampling, TracedPicture};
 use lensrunner::scene::{GameConfig, Scene};
 use lensrunner_lab::compare::command::difference;
 use lensrunner_lab::compare::measure::metrics::{Limits, compare};
 use lensrunner_lab::compare::measure::narrow;
-use lensrunner_lab::compare::{Frame, Shown};
+use lensrunner_lab::compare::{ContestantFrame, Shown};
 
 /// The number of the ball below.
 const BALL: u32 = 197;
@@ -31,13 +31,13 @@ size = 5.0
 triangles = 400
 ";
 
-fn trace(case: &Case, samples: u32) -> Picture {
-    case.trace(&Quality { samples, tolerance: 1e-9, packet: 8 }, false, &|_| ())
+fn trace(case: &Case, samples: u32) -> TracedPicture {
+    case.trace(&Sampling { samples, tolerance: 1e-9, packet: 8 }, false, &|_| ())
 }
 
 /// What a renderer hands in that draws the dust by coverage, times `factor`.
-fn drawn(case: &Case, exact: &Picture, factor: f32) -> Frame {
-    let mut frame = Frame::of(exact, case);
+fn drawn(case: &Case, exact: &TracedPicture, factor: f32) -> ContestantFrame {
+    let mut frame = ContestantFrame::of(exact, case);
     for (shown, shares) in frame.shown.iter_mut().zip(&exact.shares).filter(|(_, shares)| shares.iter().all(|share| share.0 < BALL)) {
         let covered = shares.iter().map(|share| share.2).sum::<f32>() * factor;
         *shown = match shares.first() {

@@ -3,12 +3,12 @@
 use lensrunner::scene::GameConfig;
 use lensrunner_lab::compare::judged::{Terms, judge};
 use lensrunner_lab::compare::random::case_file::{CaseFile, files};
-use lensrunner_lab::contestant::Contestant;
+use lensrunner_lab::contestant::GameContestant;
 
 #[test]
 fn scenes_that_failed_once_are_right() {
     let folder = crate::support::root().join("tests/scenes");
-    let contestant = Contestant::default();
+    let contestant = GameContestant::default();
     let paths = files(&[folder]).unwrap();
     assert!(!paths.is_empty());
     let mut wrong = Vec::new();

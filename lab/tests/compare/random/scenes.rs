@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use lensrunner::judge::case::Case;
-use lensrunner::judge::picture::Quality;
+use lensrunner::judge::picture::Sampling;
 use lensrunner::scene::{Body, GameConfig, Mount, Scene};
 use lensrunner::spacetime::frames::relative_velocity;
 use lensrunner::spacetime::orbit::static_momentum;
@@ -20,7 +20,7 @@ use lensrunner_lab::compare::random::draw::draw;
 use lensrunner_lab::compare::random::outcome::{Outcome, Row, counts, summary};
 use lensrunner_lab::compare::random::reduce::reduce;
 use lensrunner_lab::compare::random::text::rounded_to;
-use lensrunner_lab::compare::{Frame, Shown};
+use lensrunner_lab::compare::{ContestantFrame, Shown};
 
 use crate::support::Folder;
 
@@ -121,7 +121,7 @@ fn drawn_scenes_load_and_cover_what_methods_fail_at() {
         }
         let assembly = scene.assemble(&config);
         for object in &assembly.objects {
-            let Body::Held { position, .. } = object.body else { continue };
+            let Body::Static { position, .. } = object.body else { continue };
             let triangles = assembly.models[object.model].triangles.len();
             see("many triangles", triangles > 10_000);
             see("few triangles", triangles <= 40);
@@ -195,11 +195,11 @@ fn a_failing_case_is_made_smaller_while_it_fails() {
 #[test]
 fn images_that_are_too_large_or_not_there_at_all_are_found_by_their_area() {
     let case = case(TWO);
-    let picture = case.trace(&Quality { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
+    let picture = case.trace(&Sampling { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
     let limits = Limits::small(2);
-    let perfect = Frame::of(&picture, &case);
-    let faults = |frame: &Frame| -> Vec<String> {
+    let perfect = ContestantFrame::of(&picture, &case);
+    let faults = |frame: &ContestantFrame| -> Vec<String> {
         let all = areas(&picture, frame, &names, &|_, _| false);
         all.iter().filter_map(|area| area.fault(&limits)).map(|fault| fault.text).collect()
     };
@@ -249,18 +249,19 @@ fn small_pictures_allow_what_chance_does_to_a_count_and_no_more() {
 #[test]
 fn a_whole_case_is_judged_and_its_worst_fault_named() {
     let case = case(TWO);
-    let perfect = |case: &Case| Ok(Frame::of(&case.trace(&Quality { samples: 1, tolerance: 1e-10, packet: 8 }, false, &|_| ()), case));
+    let perfect =
+        |case: &Case| Ok(ContestantFrame::of(&case.trace(&Sampling { samples: 1, tolerance: 1e-10, packet: 8 }, false, &|_| ()), case));
     let judged = judge(&case, &Terms::default(), &perfect).unwrap();
     assert!(judged.solid && judged.faults.is_empty() && judged.rate > 0.0, "{:?}", judged.faults);
     // Light where there is none, and no picture at all.
     let lit = |case: &Case| {
-        let mut frame: Frame = perfect(case)?;
+        let mut frame: ContestantFrame = perfect(case)?;
         frame.bare.iter_mut().for_each(|rgb| *rgb = [0.1; 3]);
         Ok(frame)
     };
     let judged = judge(&case, &Terms::default(), &lit).unwrap();
     assert_eq!(main_fault(&judged.faults).unwrap().kind, Kind::Lit);
-    let none = |_: &Case| -> Result<Frame, String> { Err("out of paint".into()) };
+    let none = |_: &Case| -> Result<ContestantFrame, String> { Err("out of paint".into()) };
     let judged = judge(&case, &Terms::default(), &none).unwrap();
     assert!(judged.faults[0].kind == Kind::NoPicture && judged.faults[0].text.contains("out of paint"));
 }
@@ -268,10 +269,10 @@ fn a_whole_case_is_judged_and_its_worst_fault_named() {
 #[test]
 fn the_judge_gives_up_and_says_why() {
     let case = case(TWO);
-    let quality = Quality { samples: 8, tolerance: 1e-12, packet: 8 };
-    let said = trace_within(&case, &quality, &Deadline::after(0.001)).unwrap_err().to_string();
+    let sampling = Sampling { samples: 8, tolerance: 1e-12, packet: 8 };
+    let said = trace_within(&case, &sampling, &Deadline::after(0.001)).unwrap_err().to_string();
     assert!(said.contains("gave up after 0.001 s") && said.contains("of 3600 pixels were"), "{said}");
-    assert!(trace_within(&case, &Quality { samples: 1, ..quality }, &Deadline::never()).is_ok());
+    assert!(trace_within(&case, &Sampling { samples: 1, ..sampling }, &Deadline::never()).is_ok());
 }
 
 #[test]

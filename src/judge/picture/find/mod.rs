@@ -5,25 +5,25 @@
 //! every box that the curve meets, if boxes are grown by that much. Flying bodies are tested in their rest frame, where they stand still
 //! and the curve moves.
 //!
-//! `piece`: a piece of a ray and the nearest intersection on it; `held`, `flying`: bodies that it may meet; `triangle`: curves and
+//! `piece`: a piece of a ray and the nearest intersection on it; `static_body`, `flying`: bodies that it may meet; `triangle`: curves and
 //! triangles;
 //! `packet`: neighbouring rays together.
 
 mod flying;
-mod held;
 mod packet;
 mod piece;
+mod static_body;
 mod triangle;
 
 use std::cell::OnceCell;
 
 use glam::{DVec2, DVec3};
 
-use super::disk::Crossing;
+use super::disk::PlaneCrossing;
 use super::world::World;
 use super::world::span::Scope;
 use super::world::tree::Chord;
-use super::world::worldline::Motion;
+use super::world::worldline::BodyMotion;
 use crate::judge::geodesic::{Segment, State};
 use crate::judge::ray::{End, RayFollower, Stop, orbit_plane, sky_radius};
 use crate::judge::trace::Hit;
@@ -50,8 +50,8 @@ pub enum Seen {
 /// What a ray may meet in a step: candidates from a larger packet.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Candidates {
-    /// Leaves of the tree of bodies held in place; None where they are not known.
-    pub held: Option<Vec<u32>>,
+    /// Leaves of the tree of static bodies; None where they are not known.
+    pub static_leaves: Option<Vec<u32>>,
     /// Indices of flying bodies.
     pub flying: Vec<u32>,
 }
@@ -59,7 +59,7 @@ pub(super) struct Candidates {
 impl Candidates {
     /// Everything.
     pub fn all(world: &World) -> Candidates {
-        Candidates { held: None, flying: (0..world.flying.len() as u32).collect() }
+        Candidates { static_leaves: None, flying: (0..world.flying.len() as u32).collect() }
     }
 }
 
@@ -84,7 +84,7 @@ impl World<'_> {
     }
 
     /// The same; calls `cross` for every crossing of the plane z = 0 on the way, in order.
-    pub fn look_through(&self, position: DVec3, look: DVec3, tolerance: f64, cross: &mut dyn FnMut(Crossing)) -> Seen {
+    pub fn look_through(&self, position: DVec3, look: DVec3, tolerance: f64, cross: &mut dyn FnMut(PlaneCrossing)) -> Seen {
         let (axes, in_plane) = orbit_plane(position, look);
         let near = Candidates::all(self);
         let scope = self.scope(position.length());
@@ -117,7 +117,7 @@ impl World<'_> {
     }
 
     /// The first intersection in one step of the ray with what is `near` it. `looks` is how many tests of flying bodies are left.
-    fn meet(&self, step: Step, near: &Candidates, scope: &Scope, cross: &mut dyn FnMut(Crossing), looks: &mut u32) -> Option<Hit> {
+    fn meet(&self, step: Step, near: &Candidates, scope: &Scope, cross: &mut dyn FnMut(PlaneCrossing), looks: &mut u32) -> Option<Hit> {
         let Step { segment, axes, swept } = step;
         let bend = segment.bend();
         let (mut start, last) = (segment.position(0.0), segment.position(segment.length));
@@ -132,7 +132,7 @@ impl World<'_> {
             start = end;
             let grow = growth(bend, to - piece.from, ends.positions);
             let mut met = None;
-            self.meet_held(&piece, &ends, grow, near.held.as_deref(), &mut met);
+            self.meet_static(&piece, &ends, grow, near.static_leaves.as_deref(), &mut met);
             for &number in &near.flying {
                 if !scope.allows(number, segment.start + piece.from, segment.start + to) {
                     continue;
@@ -140,7 +140,7 @@ impl World<'_> {
                 let flying = &self.flying[number as usize];
                 let [a, b] = ends.positions.map(|position| piece.embed(position));
                 let chord = Chord::new(a, b, DVec3::splat(grow));
-                if let Motion::Flying(line) = self.things[flying.thing as usize].motion
+                if let BodyMotion::Flying(line) = self.things[flying.thing as usize].motion
                     && flying.sweep.touches(&chord, segment.start + piece.from, segment.start + to)
                 {
                     self.meet_flying(&piece, flying, line, &mut met, looks);

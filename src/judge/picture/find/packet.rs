@@ -13,7 +13,7 @@ use glam::{DVec2, DVec3};
 
 use super::piece::{growth, pieces};
 use super::{Candidates, MOST_LOOKS, Seen, Step, beyond};
-use crate::judge::picture::disk::Crossing;
+use crate::judge::picture::disk::PlaneCrossing;
 use crate::judge::picture::world::World;
 use crate::judge::picture::world::span::Scope;
 use crate::judge::picture::world::tree::Chord;
@@ -60,7 +60,13 @@ impl World<'_> {
     /// What [`World::look_through`] sees from `position` (r_s) in each of these directions (rain frame), with the same bits. It takes less
     /// time if neighbours in the list are neighbours in the picture: every quarter of the list, and every quarter of that, should be a
     /// patch. `cross` also gets the number of the ray.
-    pub fn look_together(&self, position: DVec3, looks: &[DVec3], tolerance: f64, cross: &mut dyn FnMut(usize, Crossing)) -> Vec<Seen> {
+    pub fn look_together(
+        &self,
+        position: DVec3,
+        looks: &[DVec3],
+        tolerance: f64,
+        cross: &mut dyn FnMut(usize, PlaneCrossing),
+    ) -> Vec<Seen> {
         if !self.hole {
             let alone = |(i, &look): (usize, &DVec3)| self.look_through(position, look, tolerance, &mut |crossing| cross(i, crossing));
             return looks.iter().enumerate().map(alone).collect();
@@ -98,7 +104,7 @@ struct March<'a> {
     walks: Vec<Walk>,
     steps: Vec<Segments>,
     tolerance: f64,
-    cross: &'a mut dyn FnMut(usize, Crossing),
+    cross: &'a mut dyn FnMut(usize, PlaneCrossing),
 }
 
 impl March<'_> {
@@ -150,7 +156,7 @@ impl March<'_> {
             return self.meet_each(packet, near, |_| true);
         }
         let near = Sheaf::around(self.strides(&packet)).near(self.world, self.scope, near);
-        if near.held.as_ref().is_some_and(|leaves| leaves.is_empty()) && near.flying.is_empty() {
+        if near.static_leaves.as_ref().is_some_and(|leaves| leaves.is_empty()) && near.flying.is_empty() {
             self.meet_each(packet, &near, |stride| stride.crosses);
         } else if count <= FEW {
             self.meet_each(packet, &near, |_| true);
@@ -250,8 +256,8 @@ impl Sheaf {
     /// The part of `outer` that the rays may meet.
     fn near(&self, world: &World, scope: &Scope, outer: &Candidates) -> Candidates {
         let chords: [Chord; PIECES] = std::array::from_fn(|piece| self.chord(piece));
-        let tree = &world.held.tree;
-        let held = match &outer.held {
+        let tree = &world.static_bodies.tree;
+        let static_leaves = match &outer.static_leaves {
             Some(leaves) => {
                 let passes = |leaf: &&u32| chords.iter().any(|chord| tree.passes(**leaf, chord));
                 Some(leaves.iter().filter(passes).copied().collect())
@@ -267,6 +273,6 @@ impl Sheaf {
                 scope.allows(**number, from, to) && world.flying[**number as usize].sweep.touches(&chords[k], from, to)
             })
         };
-        Candidates { held, flying: outer.flying.iter().filter(touched).copied().collect() }
+        Candidates { static_leaves, flying: outer.flying.iter().filter(touched).copied().collect() }
     }
 }

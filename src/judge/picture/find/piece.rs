@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use crate::judge::geodesic::Segment;
-use crate::judge::picture::disk::Crossing;
+use crate::judge::picture::disk::PlaneCrossing;
 use crate::judge::ray::unwrap;
 use crate::judge::trace::Hit;
 
@@ -38,7 +38,7 @@ impl Piece<'_> {
     /// Where a piece crosses z = 0, before it has met something at the elapsed time `met`. The plane goes through the hole, and a segment
     /// turns round the hole by less than half a turn, so it crosses at most once. If a piece starts on the plane, the one before has
     /// reported it.
-    pub fn cross_plane(&self, ends: &Ends, met: Option<f64>) -> Option<Crossing> {
+    pub fn cross_plane(&self, ends: &Ends, met: Option<f64>) -> Option<PlaneCrossing> {
         let a = DVec2::new(self.axes[0].z, self.axes[1].z);
         let end = met.unwrap_or(self.to);
         let h0 = a.dot(ends.positions[0]);
@@ -49,7 +49,7 @@ impl Piece<'_> {
         let elapsed = self.segment.cross_line(a, 0.0, self.from, end);
         let state = self.segment.at(elapsed);
         let position = self.embed(state.position);
-        Some(Crossing {
+        Some(PlaneCrossing {
             position: DVec3::new(position.x, position.y, 0.0),
             momentum: self.embed(state.momentum),
             delay: self.segment.start + elapsed,

@@ -20,7 +20,7 @@ use crate::scene::model::Model;
 use span::{CLINGING, Scope};
 use sweep::Sweep;
 use tree::TriangleTree;
-use worldline::Motion;
+use worldline::BodyMotion;
 
 /// One visible thing.
 #[derive(Clone, Copy)]
@@ -30,7 +30,7 @@ pub struct Thing<'a> {
     /// Length of the model's unit, in r_s.
     pub scale: f64,
     /// How it moves.
-    pub motion: Motion<'a>,
+    pub motion: BodyMotion<'a>,
     /// What shines on it.
     pub light: Illumination,
     /// Its number in the layers of a picture, from 1.
@@ -47,10 +47,10 @@ pub struct World<'a> {
     pub time: f64,
     /// Whether there is a hole; without one light goes straight and nothing falls.
     pub hole: bool,
-    pub(in crate::judge::picture) held: Held,
+    pub(in crate::judge::picture) static_bodies: StaticBodies,
     pub(in crate::judge::picture) flying: Vec<Flying>,
-    /// Nothing is held in place beyond this radius, in r_s.
-    pub(in crate::judge::picture) held_radius: f64,
+    /// No static body is beyond this radius, in r_s.
+    pub(in crate::judge::picture) static_radius: f64,
     /// What light to the latest camera may meet, and at which delays.
     pub(in crate::judge::picture) scope: Mutex<Option<Arc<Scope>>>,
     /// How many rays were given up.
@@ -60,8 +60,8 @@ pub struct World<'a> {
     late: AtomicBool,
 }
 
-/// All triangles that are held in place, together.
-pub(in crate::judge::picture) struct Held {
+/// All triangles of static bodies, together.
+pub(in crate::judge::picture) struct StaticBodies {
     pub vertices: Vec<DVec3>,
     pub triangles: Vec<[u32; 3]>,
     /// For each triangle its thing and its number in the model.
@@ -87,20 +87,20 @@ const OLDEST: f64 = 100.0;
 impl<'a> World<'a> {
     /// Builds the trees. `time` is T at the camera.
     pub fn new(models: &'a [Model], things: Vec<Thing<'a>>, time: f64, hole: bool) -> World<'a> {
-        let mut held = Held { vertices: vec![], triangles: vec![], owners: vec![], tree: TriangleTree::new(&[], &[]) };
+        let mut static_bodies = StaticBodies { vertices: vec![], triangles: vec![], owners: vec![], tree: TriangleTree::new(&[], &[]) };
         let mut flying = Vec::new();
         for (index, thing) in things.iter().enumerate() {
             let model = &models[thing.model];
             let corners = model.vertices.iter().map(|v| DVec3::from(v.position.map(f64::from)) * thing.scale);
             match thing.motion {
-                Motion::Held { position, attitude } => {
-                    let first = held.vertices.len() as u32;
+                BodyMotion::Static { position, attitude } => {
+                    let first = static_bodies.vertices.len() as u32;
                     let turn = DMat3::from_quat(attitude);
-                    held.vertices.extend(corners.map(|v| position + turn * v));
-                    held.triangles.extend(model.triangles.iter().map(|t| t.map(|i| i + first)));
-                    held.owners.extend((0..model.triangles.len() as u32).map(|t| (index as u32, t)));
+                    static_bodies.vertices.extend(corners.map(|v| position + turn * v));
+                    static_bodies.triangles.extend(model.triangles.iter().map(|t| t.map(|i| i + first)));
+                    static_bodies.owners.extend((0..model.triangles.len() as u32).map(|t| (index as u32, t)));
                 }
-                Motion::Flying(line) => {
+                BodyMotion::Flying(line) => {
                     let vertices: Vec<DVec3> = corners.collect();
                     let tree = TriangleTree::new(&vertices, &model.triangles);
                     let reach = vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
@@ -113,16 +113,16 @@ impl<'a> World<'a> {
                 }
             }
         }
-        held.tree = TriangleTree::new(&held.vertices, &held.triangles);
-        let held_radius = held.vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
+        static_bodies.tree = TriangleTree::new(&static_bodies.vertices, &static_bodies.triangles);
+        let static_radius = static_bodies.vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
         World {
             models,
             things,
             time,
             hole,
-            held,
+            static_bodies,
             flying,
-            held_radius,
+            static_radius,
             scope: Mutex::new(None),
             given_up: AtomicUsize::new(0),
             deadline: None,
@@ -163,10 +163,10 @@ impl World<'_> {
             Some(scope) if scope.is_of(camera) => scope.clone(),
             _ => {
                 let lines = self.flying.iter().filter_map(|flying| match self.things[flying.thing as usize].motion {
-                    Motion::Flying(line) => Some((line, flying.reach)),
-                    Motion::Held { .. } => None,
+                    BodyMotion::Flying(line) => Some((line, flying.reach)),
+                    BodyMotion::Static { .. } => None,
                 });
-                let scope = Arc::new(Scope::new(camera, self.held_radius, self.time, self.hole, lines));
+                let scope = Arc::new(Scope::new(camera, self.static_radius, self.time, self.hole, lines));
                 *kept = Some(scope.clone());
                 scope
             }

@@ -97,12 +97,12 @@ impl Scope {
                 self.radius = self.radius.max(far);
             }
             if clings {
-                let room = room(time, line, reach, [(newer, &last), (delay, &here)]).unwrap_or_else(|| {
+                let clearance = clearance(time, line, reach, [(newer, &last), (delay, &here)]).unwrap_or_else(|| {
                     let strays = 0.5 * strays + reach;
-                    Room { room: (before.min(r) - strays - 1.0).max(1.0 - before.max(r) - strays), stands: 0.0 }
+                    Clearance { least: (before.min(r) - strays - 1.0).max(1.0 - before.max(r) - strays), stands: 0.0 }
                 });
                 for (lingers, gap) in self.lingers.iter_mut().zip(GAPS) {
-                    if !(room.room > gap || gap < room.stands) {
+                    if !(clearance.least > gap || gap < clearance.stands) {
                         *lingers = delay;
                     }
                 }
@@ -136,16 +136,16 @@ impl Scope {
 }
 
 /// The space between a body and r = 1 over a span of delay.
-struct Room {
+struct Clearance {
     /// Least distance of the body from r = 1, in r_s; below 0 where it may lie across it.
-    room: f64,
+    least: f64,
     /// Light closer than this to r = 1, in r_s, stands still in front of the body.
     stands: f64,
 }
 
-/// The room of a body between two delays (r_s/c) one step apart, with its poses there; None if its motion is not known. A body close to the
-/// horizon is contracted across it: followed backwards it comes as close to r = 1 as clinging light, and no closer.
-fn room(time: f64, line: &dyn Worldline, reach: f64, [newer, older]: [(f64, &Pose); 2]) -> Option<Room> {
+/// The clearance of a body between two delays (r_s/c) one step apart, with its poses there; None if its motion is not known. A body close
+/// to the horizon is contracted across it: followed backwards it comes as close to r = 1 as clinging light, and no closer.
+fn clearance(time: f64, line: &dyn Worldline, reach: f64, [newer, older]: [(f64, &Pose); 2]) -> Option<Clearance> {
     let span = older.0 - newer.0;
     let sway = line.sway(time - older.0, time - newer.0)?;
     let moves = 0.5 * sway.velocity * span;
@@ -163,7 +163,7 @@ fn room(time: f64, line: &dyn Worldline, reach: f64, [newer, older]: [(f64, &Pos
     let [r0, r1] = [newer.1, older.1].map(|pose| pose.position.length());
     let held = sway.velocity == 0.0 && sway.force == 0.0 && sway.turning == 0.0;
     let stands = if held { STILL * reach / gamma(older.1.momentum) } else { 0.0 };
-    Some(Room { room: (r0.min(r1) - 1.0).max(1.0 - r0.max(r1)) - moves - extent, stands })
+    Some(Clearance { least: (r0.min(r1) - 1.0).max(1.0 - r0.max(r1)) - moves - extent, stands })
 }
 
 /// Largest radius of light of this delay (r_s/c) to a camera at radius `camera`, in r_s: dr/dτ ≤ 1 + r^{-1/2}.

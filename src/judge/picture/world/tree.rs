@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use crate::judge::bvh::{self, Bounds, Costs, Settings};
+use crate::judge::bvh::{self, Bounds, BvhSettings, Costs};
 
 /// Costs: a triangle against a curve takes the search of a root; a box against a chord takes two divisions an axis.
-const SETTINGS: Settings = Settings { costs: Costs { node: 1.0, primitive: 4.0 }, max_leaf: 4 };
+const SETTINGS: BvhSettings = BvhSettings { costs: Costs { node: 1.0, primitive: 4.0 }, max_leaf: 4 };
 
 /// A binary tree of axis-aligned boxes over triangles.
 #[derive(Clone, Debug)]

@@ -87,9 +87,9 @@ pub trait Worldline: Sync {
 
 /// How a thing moves.
 #[derive(Clone, Copy)]
-pub enum Motion<'a> {
-    /// Held in place, at rest in Schwarzschild's coordinates.
-    Held {
+pub enum BodyMotion<'a> {
+    /// Static: held in place, at rest in Schwarzschild's coordinates.
+    Static {
         /// In r_s.
         position: DVec3,
         /// Model axes to coordinate axes.

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-use crate::spacetime::light::{Branch, Connection, Fate, Order, connect, follow, static_angle, swept_to_sky};
+use crate::spacetime::light::{Branch, Connection, Order, SweepEnd, connect, follow, static_angle, swept_to_sky};
 
 /// Where a ray ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,13 +44,13 @@ impl Start {
                 return (points, None);
             }
             match follow(self.u, self.w, swept) {
-                Fate::At { u: next, .. } if next >= 1.0 => {
+                SweepEnd::At { u: next, .. } if next >= 1.0 => {
                     points.push(self.place(1.0, swept - STEP * (next - 1.0) / (next - u) / (slope / u).hypot(1.0)));
                     return (points, Some(End::Caught));
                 }
-                Fate::At { u: next, slope: now } => (u, slope) = (next, now),
-                Fate::Plunged => return (points, Some(End::Caught)),
-                Fate::Escaped => return (points, Some(End::Escaped)),
+                SweepEnd::At { u: next, slope: now } => (u, slope) = (next, now),
+                SweepEnd::Plunged => return (points, Some(End::Caught)),
+                SweepEnd::Escaped => return (points, Some(End::Escaped)),
             }
             points.push(self.place(1.0 / u, swept));
             if slope < 0.0 && u * far < 1.0 {

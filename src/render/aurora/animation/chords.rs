@@ -4,7 +4,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::render::aurora::{BOTH_POLES, Segment};
-use crate::render::instances::{View, departure};
+use crate::render::instances::{InstanceView, departure};
 use crate::scene::aurora::dipole::{REFERENCE_HEIGHT, on_field_line};
 use crate::scene::aurora::lines::{self, Line};
 use crate::sim::History;
@@ -29,7 +29,7 @@ const MOST_ENDS: usize = 2_000_000;
 /// What the chords depend on.
 pub struct ChordInputs<'a, 'b> {
     /// The camera.
-    pub view: &'a View<'b>,
+    pub view: &'a InstanceView<'b>,
     /// T of the frame.
     pub time: f64,
     /// The planet's worldline, with the dipole's axes.

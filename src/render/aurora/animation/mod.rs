@@ -13,16 +13,16 @@ use crate::render::aurora::colours::Colours;
 use crate::render::aurora::ground::{Glow, Ground, GroundFrame};
 use crate::render::aurora::node_history::{NodeHistory, ROW, ROWS};
 use crate::render::aurora::ration::Ration;
-use crate::render::aurora::shift::Shift;
-use crate::render::aurora::{AuroraSettings, BOTH_POLES, LINEAR, Segment, sight, veil};
+use crate::render::aurora::shift::ImageShift;
+use crate::render::aurora::{AuroraSettings, BOTH_POLES, LINEAR, Segment, occlusion, sight};
 use crate::render::gpu::types::Instance;
-use crate::render::instances::{DrawnObject, Motion as Movement, View, instances_of};
+use crate::render::instances::{DrawnObject, InstanceView, ObjectMotion, instances_of};
 use crate::render::models::ModelRange;
 use crate::scene::aurora::curtains::curtains;
 use crate::scene::aurora::dipole::PLANET_RADIUS;
 use crate::scene::aurora::fall::Spectrum;
 use crate::scene::aurora::lines::kilorayleigh_xyz;
-use crate::scene::aurora::motion::{Motion, Plan, STEP, length};
+use crate::scene::aurora::motion::{AuroraMotion, Plan, STEP, length};
 use crate::scene::aurora::quantiles::{HEIGHTS, KINDS, PARTS, Quantiles};
 use crate::scene::config::AuroraConfig;
 use crate::scene::lighting::Illumination;
@@ -87,7 +87,7 @@ pub struct AuroraAnimation {
     config: AuroraConfig,
     falls: Falls,
     plan: Plan,
-    motion: Option<Motion>,
+    motion: Option<AuroraMotion>,
     /// The history of the curtains' nodes; below, the time of its newest row in s.
     rows: NodeHistory,
     newest: f64,
@@ -172,7 +172,7 @@ impl AuroraAnimation {
 
     /// The aurora in the frame at T = `time`. None while it is out of sight or too small to see; then nothing is simulated. `back` is how
     /// far back light comes from, in r_s/c.
-    pub fn frame(&mut self, view: &View, time: f64, back: f64, orders: u32) -> Option<AuroraFrame> {
+    pub fn frame(&mut self, view: &InstanceView, time: f64, back: f64, orders: u32) -> Option<AuroraFrame> {
         let history = planet_history(&self.planet, time, back, self.planet.dipole())?;
         let globe = PlanetView::new(view, time, &history, self.planet.radius);
         let (mut frame, widest) = self.images(&globe, orders);
@@ -200,7 +200,7 @@ impl AuroraAnimation {
             model: nothing,
             coarse: nothing,
             stand_ins: &[],
-            motion: Movement::Flying(history),
+            motion: ObjectMotion::Flying(history),
             reach: self.planet.radius * REACH,
             scale: self.planet.radius / PLANET_RADIUS,
             id: 0,
@@ -224,7 +224,7 @@ impl AuroraAnimation {
                 widest = widest.max(width);
                 frame.parts.push(view.aspect.map_or(whole, seen_on));
                 let bends = view.settings.method.bends;
-                frame.behind.push(self.disk.is_some_and(|disk| veil::is_behind(view.camera, position, order, bends, disk)));
+                frame.behind.push(self.disk.is_some_and(|disk| occlusion::is_behind(view.camera, position, order, bends, disk)));
                 frame.colours.push(self.colours(globe, order, part));
                 frame.instances.push(instance);
             }
@@ -278,7 +278,7 @@ impl AuroraAnimation {
         };
         let chords = bend.chords(&segments, |segment, wait| self.rows.middle_of(segment, wait + ahead), &orders, flags);
         let parts = curtains.parts(globe);
-        let room = (streaks as usize * parts as usize).min(MOST_STROKES);
+        let capacity = (streaks as usize * parts as usize).min(MOST_STROKES);
         let levels = curtains.levels(globe, &segments, self.planet.radius * REACH);
         let clock = (globe.time * self.config.pace).rem_euclid(RAYS_PERIOD);
         let [[green_top, green_foot], [red_top, red_foot]] = self.falls.ends;
@@ -289,7 +289,7 @@ impl AuroraAnimation {
             row_nodes: self.rows.ago(0).len() as u32,
             newest_row: self.rows.newest() as u32,
             segments: segments.len() as u32,
-            room: room as u32,
+            capacity: capacity as u32,
             flags,
             row_seconds: ROW as f32,
             ahead: ahead as f32,
@@ -312,7 +312,7 @@ impl AuroraAnimation {
     fn go_on(&mut self, now: f64) -> f64 {
         let now = now + self.offset;
         if self.motion.is_none() {
-            let motion = Motion::new(self.plan.clone(), (now / ROW).floor() * ROW);
+            let motion = AuroraMotion::new(self.plan.clone(), (now / ROW).floor() * ROW);
             self.rows = NodeHistory::still(motion.row());
             self.newest = motion.time();
             self.motion = Some(motion);
@@ -333,7 +333,7 @@ impl AuroraAnimation {
     }
 
     /// The curtains as they are now become the newest row.
-    fn keep(&mut self, motion: &Motion) {
+    fn keep(&mut self, motion: &AuroraMotion) {
         self.newest = motion.time();
         self.rows.push(motion.row());
     }
@@ -343,7 +343,7 @@ impl AuroraAnimation {
         let warm_up = ROWS as f64 * ROW;
         let stale = self.motion.as_ref().is_none_or(|motion| !(motion.time() - warm_up..=motion.time() + warm_up).contains(&now));
         if stale {
-            let motion = Motion::new(self.plan.clone(), ((now - warm_up) / ROW).floor() * ROW);
+            let motion = AuroraMotion::new(self.plan.clone(), ((now - warm_up) / ROW).floor() * ROW);
             self.rows = NodeHistory::still(motion.row());
             self.newest = motion.time();
             self.motion = Some(motion);
@@ -373,8 +373,8 @@ impl AuroraAnimation {
     /// brightness.
     fn colours(&self, globe: &PlanetView, order: Order, part: f64) -> Colours {
         let view = globe.view;
-        let even = || Shift::even(globe.frequency_ratio(order).unwrap_or(1.0).clamp(0.2, 5.0));
-        let shift = Shift::new(view, globe.time, globe.history, order, self.planet.radius).unwrap_or_else(even);
+        let even = || ImageShift::even(globe.frequency_ratio(order).unwrap_or(1.0).clamp(0.2, 5.0));
+        let shift = ImageShift::new(view, globe.time, globe.history, order, self.planet.radius).unwrap_or_else(even);
         Colours::new(&shift, |g| {
             let [shift, beam] = [view.settings.doppler, view.settings.beaming].map(|on| if on { g.clamp(0.2, 5.0) } else { 1.0 });
             // A kilorayleigh of green at rest has the luminance that game.toml gives it. Power goes as g⁴.
@@ -406,7 +406,7 @@ impl Falls {
 }
 
 /// As many steps as there are between two rows.
-fn move_on(motion: &mut Motion) {
+fn move_on(motion: &mut AuroraMotion) {
     for _ in 0..(ROW / STEP).round() as u32 {
         motion.step();
     }

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::render::instances::{View, against_static, departure};
+use crate::render::instances::{InstanceView, against_static, departure};
 use crate::scene::planet::Planet;
 use crate::sim::History;
 use crate::sim::flight::Command;
@@ -29,7 +29,7 @@ pub fn planet_history(planet: &Planet, time: f64, back: f64, turn: DQuat) -> Opt
 /// A planet in one frame.
 pub struct PlanetView<'a> {
     /// The camera.
-    pub view: &'a View<'a>,
+    pub view: &'a InstanceView<'a>,
     /// T of the frame.
     pub time: f64,
     /// The planet's worldline, with the dipole's axes.
@@ -48,7 +48,7 @@ pub struct PlanetView<'a> {
 
 impl<'a> PlanetView<'a> {
     /// A planet of that radius (r_s) with this history, whose axes are the dipole's, at T = `time`.
-    pub fn new(view: &'a View<'a>, time: f64, history: &'a History, radius: f64) -> Self {
+    pub fn new(view: &'a InstanceView<'a>, time: f64, history: &'a History, radius: f64) -> Self {
         let now = history.at(time);
         let distance = (now.position - view.camera.position).length();
         let pixels = 2.0 * radius / distance.max(1e-6) / view.pixel;

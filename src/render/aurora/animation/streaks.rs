@@ -6,7 +6,7 @@ use crate::render::aurora::node_history::place as node_position;
 use crate::render::aurora::{CurtainNode, Segment};
 use crate::scene::aurora::curve::Curve;
 use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT, on_field_line};
-use crate::scene::aurora::motion::Motion;
+use crate::scene::aurora::motion::AuroraMotion;
 use crate::scene::aurora::quantiles::HEIGHTS;
 use crate::scene::config::AuroraConfig;
 
@@ -43,7 +43,7 @@ pub struct Curtains<'a> {
     /// At rest.
     pub curves: &'a [Curve],
     /// As they move.
-    pub motion: &'a Motion,
+    pub motion: &'a AuroraMotion,
     /// Their nodes, as the shaders have them.
     pub row: &'a [CurtainNode],
     /// Whether they are at both poles.

@@ -95,7 +95,7 @@ pub struct Node {
 
 /// All curtains, stepping at a fixed rate.
 #[derive(Clone, Debug)]
-pub struct Motion {
+pub struct AuroraMotion {
     plan: Plan,
     /// Each node at rest: its curve, its parameter along it, its position in km.
     rest: Vec<(usize, f64, DVec2)>,
@@ -118,7 +118,7 @@ pub struct Motion {
     caught: u64,
 }
 
-impl Motion {
+impl AuroraMotion {
     /// The curtains at rest at `time` (s).
     pub fn new(plan: Plan, time: f64) -> Self {
         let lengths: Vec<f64> = plan.curves.iter().map(length).collect();
@@ -145,7 +145,7 @@ impl Motion {
             (link.start + t * lengths[curve]) * stretch + OTHER_RAYS * link.chain as f64
         };
         let nodes: Vec<Node> = rest.iter().map(|&(curve, t, place)| Node { place, flux: 1.0, along: along(curve, t) }).collect();
-        let mut motion = Motion {
+        let mut motion = AuroraMotion {
             speeds: vec![DVec2::ZERO; nodes.len()],
             near: Near::new(1.0, SIGMA * spacing, centre, side),
             poisson: Poisson::of_clouds(GRID, spacing, SIGMA * spacing),

@@ -2,8 +2,8 @@
 
 use glam::{DMat3, DQuat, DVec3, Vec3};
 use lensrunner::render::gpu::shaders::Pass;
-use lensrunner::render::instances::swing::{Node, swing_at};
-use lensrunner::render::instances::{DrawnObject, Motion, Placed};
+use lensrunner::render::instances::local_motion::{MotionNode, local_motion_at};
+use lensrunner::render::instances::{DrawnObject, ObjectMotion, Placed};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::sim::History;
@@ -46,7 +46,7 @@ fn exact(history: &History, time: f64, body: DVec3) -> DVec3 {
 /// The instance of a body in a camera's view at T = `now`, and the emission time that it is about.
 fn seen(camera: &Observer, history: &History, reach: f64, pixel: f64, now: f64) -> (Placed, f64) {
     let bench = bench();
-    let object = DrawnObject { reach, ..bench.object(Motion::Flying(history), 2.0 * reach, 1) };
+    let object = DrawnObject { reach, ..bench.object(ObjectMotion::Flying(history), 2.0 * reach, 1) };
     let placed = bench.place_by(pixel, camera, now, &object, &Settings { orders: 1, ..Settings::finest() }).remove(0);
     let emission = now - f64::from(placed.instance.delay);
     (placed, emission)
@@ -62,7 +62,7 @@ fn placed(jolt: f64, now: f64) -> (History, Placed, f64) {
 
 /// Where the GPU has a point of the body, `s` after the emission time, from the centre then.
 fn offset(placed: &Placed, body: DVec3, s: f64) -> DVec3 {
-    swing_at(&placed.instance, &placed.nodes, body.as_vec3(), s as f32).0.as_dvec3()
+    local_motion_at(&placed.instance, &placed.nodes, body.as_vec3(), s as f32).0.as_dvec3()
 }
 
 #[test]
@@ -139,7 +139,7 @@ fn a_ship_that_falls_inside_beside_the_camera_is_right_all_over() {
 }
 
 #[test]
-fn the_swing_is_the_same_in_both_languages() {
+fn the_local_motion_is_the_same_in_both_languages() {
     // The rows of an instance: a vector and a number each, then linear forms and caps, then whole numbers.
     let row = |k: usize| format!("twin_rows[id.x + {k}u]");
     let number = |k: usize| if k == 14 { format!("bitcast<u32>({}.w)", row(k)) } else { format!("{}.w", row(k)) };
@@ -147,18 +147,18 @@ fn the_swing_is_the_same_in_both_languages() {
     let caps = (19..22).map(|k| format!("Cap({0}.xyz, {0}.w)", row(k)));
     let members: Vec<String> = vectors.chain((16..19).map(row)).chain(caps).chain(std::iter::repeat_n("0u".to_owned(), 12)).collect();
     let body = format!(
-        "#import lensrunner::chosen::worldlines::{{node_place, swing_between}}
+        "#import lensrunner::chosen::worldlines::{{node_place, local_motion_between}}
 #import lensrunner::gpu::types::{{Cap, Instance}}
     if id.x % 38u != 0u {{ return; }}
     let p = Instance({});
     let point = twin_rows[id.x + 25u];
     let place = node_place(p, point.w);
     let first = id.x + 26u + 3u * place.index;
-    let swing = swing_between(p, point.xyz, point.w, place, mat2x4<f32>(twin_rows[first], twin_rows[first + 3u]),
+    let moved = local_motion_between(p, point.xyz, point.w, place, mat2x4<f32>(twin_rows[first], twin_rows[first + 3u]),
         mat2x3<f32>(twin_rows[first + 1u].xyz, twin_rows[first + 4u].xyz), mat2x3<f32>(twin_rows[first + 2u].xyz, twin_rows[first + 5u].xyz));
-    twin_out[id.x] = vec4<f32>(swing.offset, 0.0);
-    twin_out[id.x + 1u] = vec4<f32>(swing.velocity, 0.0);
-    twin_out[id.x + 2u] = swing.attitude;",
+    twin_out[id.x] = vec4<f32>(moved.offset, 0.0);
+    twin_out[id.x + 1u] = vec4<f32>(moved.velocity, 0.0);
+    twin_out[id.x + 2u] = moved.attitude;",
         members.join(", ")
     );
     const NODES: usize = 4;
@@ -173,7 +173,7 @@ fn the_swing_is_the_same_in_both_languages() {
         instance.strays = 1.0;
         instance.snap = std::array::from_fn(|_| random.random_range(-2.0..2.0));
         let mut random_vector = |most: f32| Vec3::from_array(std::array::from_fn(|_| random.random_range(-most..most)));
-        let nodes: Vec<Node> = (0..NODES)
+        let nodes: Vec<MotionNode> = (0..NODES)
             .map(|k| {
                 let [aside, pushed] = [random_vector(0.1), random_vector(0.5)].map(|v| v.extend(0.0).to_array());
                 let turn = glam::Quat::from_scaled_axis(Vec3::new(0.2, -0.1, 0.3) * k as f32 + random_vector(0.2));
@@ -193,7 +193,7 @@ fn the_swing_is_the_same_in_both_languages() {
         .collect();
     let out = run(Pass::Vertices, &body, [&[], &[]], &rows, 1);
     for ((instance, nodes, body, s), got) in cases.iter().zip(out.chunks_exact(26 + 3 * NODES)) {
-        let (offset, velocity, attitude) = swing_at(instance, nodes, *body, *s);
+        let (offset, velocity, attitude) = local_motion_at(instance, nodes, *body, *s);
         let pairs = [(&got[0][..3], offset.to_array().to_vec()), (&got[1][..3], velocity.to_array().to_vec())];
         for (got, want) in pairs.into_iter().chain([(&got[2][..], attitude.to_array().to_vec())]) {
             let off = got.iter().zip(&want).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);

@@ -1,4 +1,4 @@
-//! A piece of a ray against what is held in place.
+//! A piece of a ray against static bodies.
 
 use glam::{DVec2, DVec3};
 
@@ -9,19 +9,19 @@ use crate::judge::picture::world::World;
 
 impl World<'_> {
     /// Intersects the piece with the `leaves` of the tree, or with all of it. Boxes are grown by `grow` (r_s).
-    pub(super) fn meet_held(&self, piece: &Piece, ends: &Ends, grow: f64, leaves: Option<&[u32]>, met: &mut Option<Met>) {
+    pub(super) fn meet_static(&self, piece: &Piece, ends: &Ends, grow: f64, leaves: Option<&[u32]>, met: &mut Option<Met>) {
         let [from, to] = ends.positions.map(|position| piece.embed(position));
         let span = piece.to - piece.from;
         let meet = |item: u32, until: f64| {
-            let corners = self.held.triangles[item as usize].map(|i| self.held.vertices[i as usize]);
-            let Some((elapsed, barycentrics)) = cross_held(piece, ends, corners) else { return until };
-            let (thing, triangle) = self.held.owners[item as usize];
+            let corners = self.static_bodies.triangles[item as usize].map(|i| self.static_bodies.vertices[i as usize]);
+            let Some((elapsed, barycentrics)) = cross_static(piece, ends, corners) else { return until };
+            let (thing, triangle) = self.static_bodies.owners[item as usize];
             Met { elapsed, thing, triangle, barycentrics }.offer(met);
             (elapsed - piece.from) / span
         };
         match leaves {
-            Some(leaves) => self.held.tree.along_leaves(leaves, from, to, grow, meet),
-            None => self.held.tree.along(from, to, grow, 1.0, meet),
+            Some(leaves) => self.static_bodies.tree.along_leaves(leaves, from, to, grow, meet),
+            None => self.static_bodies.tree.along(from, to, grow, 1.0, meet),
         }
     }
 }
@@ -30,7 +30,7 @@ impl World<'_> {
 ///
 /// The triangle's plane cuts the plane of the orbit in a line a·x = c. The path of light is strictly convex (u'' + u = (3/2)u² > 0) and
 /// turns by less than half a turn in a segment, so it crosses a line at most twice, once on each side of where it runs parallel to it.
-fn cross_held(piece: &Piece, ends: &Ends, corners: [DVec3; 3]) -> Option<(f64, [f64; 3])> {
+fn cross_static(piece: &Piece, ends: &Ends, corners: [DVec3; 3]) -> Option<(f64, [f64; 3])> {
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     let a = DVec2::new(normal.dot(piece.axes[0]), normal.dot(piece.axes[1]));
     let c = normal.dot(corners[0]);

@@ -1,6 +1,6 @@
-//! The stages of geometry, compiled for a method of projection and a side of the horizon. What has been compiled is kept, and the other
-//! side of the horizon can be compiled meanwhile on a thread of its own: drivers take tenths of a second for it, and longer at the first
-//! time.
+//! The pipelines of the stages of geometry, compiled for a method of projection and a side of the horizon. What has been compiled is kept,
+//! and the other side of the horizon can be compiled meanwhile on a thread of its own: drivers take tenths of a second for it, and longer
+//! at the first time.
 
 use std::sync::Arc;
 use std::thread::JoinHandle;
@@ -15,7 +15,7 @@ pub(super) type Side = (Method, bool);
 
 /// The pipelines, by the file of `shaders/geometry/` that they are from.
 #[derive(Debug)]
-pub(super) struct Stages {
+pub(super) struct GeometryPipelines {
     pub vertices: wgpu::ComputePipeline,
     pub edges: wgpu::ComputePipeline,
     pub triangles: wgpu::ComputePipeline,
@@ -39,14 +39,14 @@ pub(super) struct PipelineInputs {
 }
 
 impl PipelineInputs {
-    fn stages(&self, (method, inside): Side) -> Stages {
+    fn pipelines(&self, (method, inside): Side) -> GeometryPipelines {
         let device = &self.device;
         let groups = [Some(&self.frame), Some(&self.geometry)];
         let module = |pass: Pass| pass.module_along(self.worldlines, method, inside);
         let stage = |label, pass, entry| compute_of(device, label, module(pass), entry, &groups);
         let with_arguments = [Some(&self.frame), Some(&self.geometry), Some(&self.arguments)];
         let argument = |entry| compute_of(device, entry, module(Pass::Arguments), entry, &with_arguments);
-        Stages {
+        GeometryPipelines {
             vertices: stage("vertices", Pass::Vertices, "main"),
             edges: stage("edges", Pass::Edges, "main"),
             triangles: stage("triangles", Pass::Triangles, "main"),
@@ -64,26 +64,26 @@ impl PipelineInputs {
 #[derive(Debug)]
 pub(super) struct PipelineCache {
     inputs: PipelineInputs,
-    now: Arc<Stages>,
+    now: Arc<GeometryPipelines>,
     side: Side,
-    kept: Vec<(Side, Arc<Stages>)>,
+    kept: Vec<(Side, Arc<GeometryPipelines>)>,
     /// What is being compiled in the background.
-    ahead: Option<(Side, JoinHandle<Stages>)>,
+    ahead: Option<(Side, JoinHandle<GeometryPipelines>)>,
 }
 
 impl PipelineCache {
-    /// With the stages of one side.
+    /// With the pipelines of one side.
     pub fn new(inputs: PipelineInputs, side: Side) -> PipelineCache {
-        let now = Arc::new(inputs.stages(side));
+        let now = Arc::new(inputs.pipelines(side));
         PipelineCache { inputs, now: now.clone(), side, kept: vec![(side, now)], ahead: None }
     }
 
-    /// The stages in use.
-    pub fn now(&self) -> &Stages {
+    /// The pipelines in use.
+    pub fn now(&self) -> &GeometryPipelines {
         &self.now
     }
 
-    /// Uses the stages of this side from now on.
+    /// Uses the pipelines of this side from now on.
     pub fn choose(&mut self, side: Side) {
         if side == self.side {
             return;
@@ -92,9 +92,9 @@ impl PipelineCache {
         let kept = self.kept.iter().find(|kept| kept.0 == side).map(|kept| kept.1.clone());
         self.now = kept.unwrap_or_else(|| {
             let ahead = self.ahead.take_if(|ahead| ahead.0 == side).and_then(|(_, thread)| thread.join().ok());
-            let stages = Arc::new(ahead.unwrap_or_else(|| self.inputs.stages(side)));
-            self.kept.push((side, stages.clone()));
-            stages
+            let pipelines = Arc::new(ahead.unwrap_or_else(|| self.inputs.pipelines(side)));
+            self.kept.push((side, pipelines.clone()));
+            pipelines
         });
     }
 
@@ -102,14 +102,14 @@ impl PipelineCache {
     pub fn precompile(&mut self, side: Side) {
         // What was compiled in advance and not used is kept as well.
         if let Some((other, thread)) = self.ahead.take_if(|ahead| ahead.1.is_finished())
-            && let Ok(stages) = thread.join()
+            && let Ok(pipelines) = thread.join()
         {
-            self.kept.push((other, Arc::new(stages)));
+            self.kept.push((other, Arc::new(pipelines)));
         }
         if self.ahead.is_none() && self.kept.iter().all(|kept| kept.0 != side) {
             let inputs = self.inputs.clone();
             // Without a thread it is compiled when it is needed.
-            let thread = std::thread::Builder::new().name("stages".to_owned()).spawn(move || inputs.stages(side));
+            let thread = std::thread::Builder::new().name("stages".to_owned()).spawn(move || inputs.pipelines(side));
             self.ahead = thread.ok().map(|thread| (side, thread));
         }
     }

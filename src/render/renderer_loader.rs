@@ -13,7 +13,7 @@ use crate::render::renderer::{Renderer, SceneUpload};
 
 /// The renderer, or the thread that has it meanwhile. One system at a time has it (its receivers are not shared between threads).
 #[derive(Resource)]
-pub(super) struct Workshop {
+pub(super) struct RendererLoader {
     renderer: Option<SyncCell<Renderer>>,
     work: Option<JoinHandle<Renderer>>,
     scene: Option<Arc<SceneUpload>>,
@@ -23,12 +23,12 @@ pub(super) struct Workshop {
 #[derive(Debug)]
 pub(super) struct Broken;
 
-impl Workshop {
+impl RendererLoader {
     /// Has a renderer made.
-    pub fn begin(make: impl FnOnce() -> Renderer + Send + 'static) -> Workshop {
-        let mut workshop = Workshop { renderer: None, work: None, scene: None };
-        workshop.work(make);
-        workshop
+    pub fn begin(make: impl FnOnce() -> Renderer + Send + 'static) -> RendererLoader {
+        let mut loader = RendererLoader { renderer: None, work: None, scene: None };
+        loader.work(make);
+        loader
     }
 
     fn work(&mut self, work: impl FnOnce() -> Renderer + Send + 'static) {
@@ -75,7 +75,7 @@ impl Workshop {
     }
 }
 
-impl Drop for Workshop {
+impl Drop for RendererLoader {
     fn drop(&mut self) {
         // The device must stay alive while a driver compiles.
         if let Some(work) = self.work.take() {

@@ -1,10 +1,10 @@
-//! What each step of each knob costs and saves, measured by `lab/run chart dial`: `tables/quality.csv`.
+//! What each step of each option costs and saves, measured by `lab/run chart dial`: `tables/quality.csv`.
 
 use std::sync::LazyLock;
 
 use thiserror::Error;
 
-use super::knobs::Knob;
+use super::options::QualityOption;
 
 /// Kinds of scenes, by what takes their time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,22 +44,22 @@ impl SceneClass {
     }
 }
 
-/// What one step of a knob comes to, all others at their finest.
+/// What one step of a option comes to, all others at their finest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Price {
+pub struct QualityCost {
     /// Error that it adds, in mean FLIP: at most this at 99 of 100 moments.
     pub error: f64,
     /// Time of a frame, as a share of that of the finest.
     pub time: f64,
 }
 
-/// The prices of all steps of all knobs, for each class of scenes.
+/// The costs of all steps of all options, for each class of scenes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Prices(Vec<(SceneClass, &'static str, u8, Price)>);
+pub struct QualityCosts(Vec<(SceneClass, &'static str, u8, QualityCost)>);
 
-/// What is wrong with a table of prices.
+/// What is wrong with a table of costs.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum PricesError {
+pub enum QualityCostsError {
     /// A line is not one of the table.
     #[error("line {line}: `{text}` is not class,knob,step,value,error,time with an error from 0 to 1 and a time above 0")]
     Line {
@@ -68,13 +68,13 @@ pub enum PricesError {
         /// What it says.
         text: String,
     },
-    /// A price is missing.
-    #[error("no price for step {step} of {knob} in scenes of the class {class}")]
+    /// A cost is missing.
+    #[error("no cost for step {step} of {option} in scenes of the class {class}")]
     Missing {
         /// The class.
         class: &'static str,
-        /// The knob.
-        knob: &'static str,
+        /// The option.
+        option: &'static str,
         /// The step.
         step: u8,
     },
@@ -85,54 +85,54 @@ pub const HEADER: &str = "class,knob,step,value,error,time";
 
 /// The table that the game is built with.
 const SHIPPED: &str = include_str!("../../../tables/quality.csv");
-static PRICES: LazyLock<Prices> = LazyLock::new(|| Prices::read(SHIPPED).unwrap_or_else(|_| Prices(Vec::new())));
+static COSTS: LazyLock<QualityCosts> = LazyLock::new(|| QualityCosts::read(SHIPPED).unwrap_or_else(|_| QualityCosts(Vec::new())));
 
-impl Prices {
+impl QualityCosts {
     /// Those that the game is built with.
-    pub fn shipped() -> &'static Prices {
-        &PRICES
+    pub fn shipped() -> &'static QualityCosts {
+        &COSTS
     }
 
     /// Reads a table; lines with `#` are comments.
-    pub fn read(text: &str) -> Result<Prices, PricesError> {
-        let mut prices = Vec::new();
+    pub fn read(text: &str) -> Result<QualityCosts, QualityCostsError> {
+        let mut costs = Vec::new();
         for (number, line) in text.lines().enumerate() {
             if line.starts_with('#') || line == HEADER || line.trim().is_empty() {
                 continue;
             }
-            let price = entry(line).ok_or_else(|| PricesError::Line { line: number + 1, text: line.chars().take(80).collect() })?;
-            prices.push(price);
+            let cost = entry(line).ok_or_else(|| QualityCostsError::Line { line: number + 1, text: line.chars().take(80).collect() })?;
+            costs.push(cost);
         }
-        let prices = Prices(prices);
+        let costs = QualityCosts(costs);
         for class in SceneClass::ALL {
-            for knob in Knob::ALL {
-                if let Some(step) = (1..knob.steps()).find(|step| prices.find(class, knob, *step).is_none()) {
-                    return Err(PricesError::Missing { class: class.name(), knob: knob.name, step });
+            for option in QualityOption::ALL {
+                if let Some(step) = (1..option.steps()).find(|step| costs.find(class, option, *step).is_none()) {
+                    return Err(QualityCostsError::Missing { class: class.name(), option: option.name, step });
                 }
             }
         }
-        Ok(prices)
+        Ok(costs)
     }
 
-    /// The price of a step; nothing is saved by step 0, nor by one that is not in the table.
-    pub fn of(&self, class: SceneClass, knob: Knob, step: u8) -> Price {
-        self.find(class, knob, step).unwrap_or(Price { error: 0.0, time: 1.0 })
+    /// The cost of a step; nothing is saved by step 0, nor by one that is not in the table.
+    pub fn of(&self, class: SceneClass, option: QualityOption, step: u8) -> QualityCost {
+        self.find(class, option, step).unwrap_or(QualityCost { error: 0.0, time: 1.0 })
     }
 
-    fn find(&self, class: SceneClass, knob: Knob, step: u8) -> Option<Price> {
-        self.0.iter().find(|(of, what, at, _)| (*of, *what, *at) == (class, knob.name, step)).map(|(.., price)| *price)
+    fn find(&self, class: SceneClass, option: QualityOption, step: u8) -> Option<QualityCost> {
+        self.0.iter().find(|(of, what, at, _)| (*of, *what, *at) == (class, option.name, step)).map(|(.., cost)| *cost)
     }
 }
 
-fn entry(line: &str) -> Option<(SceneClass, &'static str, u8, Price)> {
+fn entry(line: &str) -> Option<(SceneClass, &'static str, u8, QualityCost)> {
     let parts: Vec<&str> = line.split(',').collect();
-    let [class, knob, step, _, error, time] = parts[..] else { return None };
+    let [class, option, step, _, error, time] = parts[..] else { return None };
     let class = SceneClass::ALL.into_iter().find(|known| known.name() == class)?;
-    let knob = Knob::ALL.into_iter().find(|known| known.name == knob)?;
-    let price = Price { error: error.parse().ok()?, time: time.parse().ok()? };
+    let option = QualityOption::ALL.into_iter().find(|known| known.name == option)?;
+    let cost = QualityCost { error: error.parse().ok()?, time: time.parse().ok()? };
     let step: u8 = step.parse().ok()?;
-    let is_sound = (0.0..=1.0).contains(&price.error) && price.time > 0.0 && price.time.is_finite() && step < knob.steps();
-    is_sound.then_some((class, knob.name, step, price))
+    let is_sound = (0.0..=1.0).contains(&cost.error) && cost.time > 0.0 && cost.time.is_finite() && step < option.steps();
+    is_sound.then_some((class, option.name, step, cost))
 }
 
 #[cfg(test)]
@@ -141,21 +141,21 @@ mod tests {
 
     #[test]
     fn the_shipped_table_is_whole() {
-        let prices = Prices::read(SHIPPED).expect("tables/quality.csv");
-        assert_eq!(&prices, Prices::shipped());
+        let costs = QualityCosts::read(SHIPPED).expect("tables/quality.csv");
+        assert_eq!(&costs, QualityCosts::shipped());
         for class in SceneClass::ALL {
-            assert!(prices.of(class, Knob::ALL[0], 4).time < 1.0, "{}: fewer pixels take less time", class.name());
+            assert!(costs.of(class, QualityOption::ALL[0], 4).time < 1.0, "{}: fewer pixels take less time", class.name());
         }
     }
 
     #[test]
     fn what_is_wrong_is_named() {
-        let missing = Prices::read(HEADER).expect_err("empty");
-        assert!(matches!(missing, PricesError::Missing { step: 1, .. }), "{missing}");
+        let missing = QualityCosts::read(HEADER).expect_err("empty");
+        assert!(matches!(missing, QualityCostsError::Missing { step: 1, .. }), "{missing}");
         for wrong in
             ["disk,resolution,1,0.8,nan,0.7", "disk,resolution,1,0.8,0.1,0", "disk,resolution,99,0.8,0.1,0.5", "disk,x,1,0,0.1,0.5", "a"]
         {
-            assert_eq!(Prices::read(wrong), Err(PricesError::Line { line: 1, text: wrong.into() }));
+            assert_eq!(QualityCosts::read(wrong), Err(QualityCostsError::Line { line: 1, text: wrong.into() }));
         }
     }
 

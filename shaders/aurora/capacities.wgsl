@@ -1,7 +1,7 @@
-#define_import_path lensrunner::aurora::rooms
+#define_import_path lensrunner::aurora::capacities
 
-// Where strokes are stored. Two levels share a room, one from its beginning and one from its end, so the split between them need not be
-// known. The room of the next coarser pair is half as large. Twin of `Rooms` in src/render/aurora/rooms.rs.
+// Where strokes are stored. Two levels share a part of the buffer, one from its beginning and one from its end, so the split between them
+// need not be known. The part of the next coarser pair is half as large. Twin of `StrokeCapacities` in src/render/aurora/capacities.rs.
 
 #import lensrunner::aurora::levels::lit_tiles::{LIT_TILE_COLUMNS, LIT_TILE_ROWS, lit_tiles_of, numbers_of, PYRAMID}
 #import lensrunner::aurora::streaks::{aurora, stroke_draws}
@@ -18,14 +18,14 @@ fn light_up(instance: u32, pixels: vec4<f32>, size: vec2<f32>, finest: bool) {
     }
 }
 
-/// Takes room for a stroke in a level, as the index of its first vertex; if a coarse level is full, in the finest. 0xffffffff: there is
+/// Allocates a stroke in a level, as the index of its first vertex; if a coarse level is full, in the finest. 0xffffffff: there is
 /// none. `level` is where it went.
-fn room_of(instance: u32, level: ptr<function, u32>) -> u32 {
+fn allocate_stroke(instance: u32, level: ptr<function, u32>) -> u32 {
     let draws = numbers_of(instance);
     for (var attempt = 0u; attempt < 2u; attempt++) {
         let pair = *level / 2u;
         let counter = draws + 4u * PYRAMID + pair;
-        if atomicAdd(&stroke_draws[counter], 1u) < (aurora.room >> pair) {
+        if atomicAdd(&stroke_draws[counter], 1u) < (aurora.capacity >> pair) {
             let own = draws + 4u * *level;
             let before = atomicAdd(&stroke_draws[own], CORNERS);
             if (*level & 1u) == 1u {

@@ -1,16 +1,16 @@
-//! The price list: each step of each knob, all others at their finest.
+//! The cost table: each step of each option, all others at their finest.
 
-use lensrunner::render::quality::knobs::{Knob, turned};
-use lensrunner::render::quality::prices::{HEADER, Prices, SceneClass};
+use lensrunner::render::quality::costs::{HEADER, QualityCosts, SceneClass};
+use lensrunner::render::quality::options::{QualityOption, turned};
 
-use super::moments::{Case, begin, case, scenes};
+use super::moments::{MomentCase, begin, case, scenes};
 use super::{DialRequest, Keep, empty};
 use crate::chart::{ChartError, Sheet, quantile};
 
 /// Columns of the sheet of all that was measured.
 pub const COLUMNS: [&str; 8] = ["class", "scene", "T", "knob", "step", "FLIP", "ms", "finest ms"];
 
-/// The error that is the price: the greatest but one in a hundred,
+/// The error that is the cost: the greatest but one in a hundred,
 const BOUND: f64 = 0.99;
 /// and so much more: a few moments seldom have the worst.
 const MARGIN: f64 = 1.2;
@@ -26,13 +26,13 @@ pub fn measure(request: &DialRequest, keep: Keep) -> Result<Sheet, ChartError> {
             let mut shown = bench.show(&case)?;
             let asked = shown.finest;
             let finest = bench.finest(&mut shown, &asked)?;
-            for (k, knob) in Knob::ALL.into_iter().enumerate() {
-                for step in 1..knob.steps() {
-                    let mut steps = [0; Knob::ALL.len()];
+            for (k, option) in QualityOption::ALL.into_iter().enumerate() {
+                for step in 1..option.steps() {
+                    let mut steps = [0; QualityOption::ALL.len()];
                     steps[k] = step;
                     let [error, time, beside] = bench.beside(&mut shown, &finest, &asked, &turned(&asked, &steps))?;
-                    let (class, knob, Case { scene, at, .. }) = (class.name(), knob.name, &case);
-                    sheet.line(format_args!("{class}|{scene}|{at}|{knob}|{step}|{error:.5}|{time:.2}|{beside:.2}"));
+                    let (class, option, MomentCase { scene, at, .. }) = (class.name(), option.name, &case);
+                    sheet.line(format_args!("{class}|{scene}|{at}|{option}|{step}|{error:.5}|{time:.2}|{beside:.2}"));
                 }
             }
             keep(&sheet)?;
@@ -51,19 +51,19 @@ pub fn table(sheet: &Sheet) -> Result<String, ChartError> {
     text.push_str(HEADER);
     text.push('\n');
     for class in SceneClass::ALL {
-        for knob in Knob::ALL {
+        for option in QualityOption::ALL {
             let (mut dearest, mut quickest) = (0f64, 1f64);
-            for step in 1..knob.steps() {
+            for step in 1..option.steps() {
                 let number = step.to_string();
-                let rows = || sheet.of([("class", class.name()), ("knob", knob.name), ("step", &number)]);
+                let rows = || sheet.of([("class", class.name()), ("knob", option.name), ("step", &number)]);
                 let error = quantile(rows().map(|row| sheet.number(row, "FLIP")), BOUND);
                 dearest = dearest.max((MARGIN * error).min(1.0));
                 let time = quantile(rows().map(|row| sheet.number(row, "ms") / sheet.number(row, "finest ms")), 0.5);
                 quickest = if time < 1.0 - SAVES { quickest.min(time) } else { quickest };
-                text.push_str(&format!("{},{},{step},{},{dearest:.5},{quickest:.4}\n", class.name(), knob.name, knob.says(step)));
+                text.push_str(&format!("{},{},{step},{},{dearest:.5},{quickest:.4}\n", class.name(), option.name, option.describe(step)));
             }
         }
     }
-    Prices::read(&text)?;
+    QualityCosts::read(&text)?;
     Ok(text)
 }

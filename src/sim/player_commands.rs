@@ -1,4 +1,4 @@
-//! What the player's hands do, in whole numbers that a replay keeps exactly, and how it becomes the controls of the player's ship.
+//! The player's commands, in whole numbers that a replay keeps exactly, and how they become the controls of the player's ship.
 
 use bevy::prelude::*;
 use glam::DVec3;
@@ -9,9 +9,9 @@ use super::bolts::Trigger;
 use super::ship::{Controls, Engine, Manual, Player, ShipMotion};
 use crate::scene::GameConfig;
 
-/// The player's hands in a step. It is all of the player that the simulation knows, so a replay is a list of these.
+/// The player's commands in a step. They are all of the player that the simulation knows, so a replay is a list of these.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
-pub struct Hands {
+pub struct PlayerCommands {
     /// Thrust on body axes (right, up, backwards), each from −127 to 127.
     pub thrust: [i8; 3],
     /// Turn about the body axes (pitch up, yaw left, roll left), each from −127 to 127.
@@ -28,43 +28,43 @@ pub struct Hands {
     pub pace: f64,
 }
 
-impl Default for Hands {
+impl Default for PlayerCommands {
     fn default() -> Self {
         let pace = GameConfig::default().clock.pace;
-        Hands { thrust: [0; 3], turn: [0; 3], assist: false, autopilot: false, looking: false, fire: false, pace }
+        PlayerCommands { thrust: [0; 3], turn: [0; 3], assist: false, autopilot: false, looking: false, fire: false, pace }
     }
 }
 
-impl Hands {
+impl PlayerCommands {
     /// A stick's full deflection.
     pub const FULL: f64 = 127.0;
 
     /// The sticks nearest to `stick`, the rest at rest.
-    pub fn holding(stick: &Stick) -> Hands {
+    pub fn holding(stick: &Stick) -> PlayerCommands {
         // NaN is no deflection.
-        let whole = |axis: f64| (axis.clamp(-1.0, 1.0) * Hands::FULL).round() as i8;
-        Hands { thrust: stick.thrust.to_array().map(whole), turn: stick.turn.to_array().map(whole), ..Hands::default() }
+        let whole = |axis: f64| (axis.clamp(-1.0, 1.0) * PlayerCommands::FULL).round() as i8;
+        PlayerCommands { thrust: stick.thrust.to_array().map(whole), turn: stick.turn.to_array().map(whole), ..PlayerCommands::default() }
     }
 
     /// The sticks.
     pub fn stick(&self) -> Stick {
-        let share = |axis: i8| f64::from(axis.max(-127)) / Hands::FULL;
+        let share = |axis: i8| f64::from(axis.max(-127)) / PlayerCommands::FULL;
         Stick { thrust: DVec3::from_array(self.thrust.map(share)), turn: DVec3::from_array(self.turn.map(share)) }
     }
 }
 
-/// What the hands' ship is like.
+/// How a ship is controlled by hand.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
-pub struct HandsRule {
+pub struct ManualControl {
     /// How the flight assist helps.
     pub assist: AssistSettings,
     /// The fastest turn, in radians a second of wall time.
     pub turn_rate: f64,
 }
 
-impl From<&GameConfig> for HandsRule {
+impl From<&GameConfig> for ManualControl {
     fn from(config: &GameConfig) -> Self {
-        HandsRule { assist: AssistSettings::from(config), turn_rate: config.ship.turn_rate }
+        ManualControl { assist: AssistSettings::from(config), turn_rate: config.ship.turn_rate }
     }
 }
 
@@ -72,21 +72,22 @@ impl From<&GameConfig> for HandsRule {
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Avoiding(pub bool);
 
-/// The player's hands on the player's ship, in `SimSet::Input`.
-pub struct HandsPlugin;
+/// The player's commands to the player's ship, in `SimSet::Input`.
+pub struct PlayerCommandsPlugin;
 
-impl Plugin for HandsPlugin {
+impl Plugin for PlayerCommandsPlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<Hands>()
-            .init_resource::<Avoiding>()
-            .add_systems(FixedUpdate, (choose_pilot, use_hands).chain().in_set(SimSet::Input).run_if(resource_exists::<HandsRule>));
+        app.init_resource::<PlayerCommands>().init_resource::<Avoiding>().add_systems(
+            FixedUpdate,
+            (choose_pilot, apply_commands).chain().in_set(SimSet::Input).run_if(resource_exists::<ManualControl>),
+        );
     }
 }
 
-/// The player's ship is flown by hand, unless the hands let the autopilot fly.
-pub fn choose_pilot(hands: Res<Hands>, ships: Query<(Entity, Has<Manual>), With<Player>>, mut commands: Commands) {
+/// The player's ship is flown by hand, unless the player lets the autopilot fly.
+pub fn choose_pilot(player_commands: Res<PlayerCommands>, ships: Query<(Entity, Has<Manual>), With<Player>>, mut commands: Commands) {
     for (ship, manual) in &ships {
-        match (hands.autopilot, manual) {
+        match (player_commands.autopilot, manual) {
             (true, true) => _ = commands.entity(ship).remove::<Manual>(),
             (false, false) => _ = commands.entity(ship).insert(Manual),
             _ => (),
@@ -96,26 +97,26 @@ pub fn choose_pilot(hands: Res<Hands>, ships: Query<(Entity, Has<Manual>), With<
 
 type ByHand = (With<Player>, With<Manual>);
 
-/// The player's hands become the ship's controls.
-fn use_hands(
-    hands: Res<Hands>,
-    rule: Res<HandsRule>,
+/// The player's commands become the ship's controls.
+fn apply_commands(
+    player_commands: Res<PlayerCommands>,
+    control: Res<ManualControl>,
     mut avoiding: ResMut<Avoiding>,
     mut ships: Query<(&ShipMotion, &mut Engine, &mut Controls, Option<&mut Trigger>), ByHand>,
 ) {
     avoiding.0 = false;
     for (motion, mut engine, mut controls, trigger) in &mut ships {
-        engine.max_rate = rule.turn_rate / hands.pace;
-        let stick = hands.stick();
-        controls.0 = if hands.assist {
-            let help = assisted(&motion.0, &stick, &engine, Reference::Orbit, &rule.assist);
+        engine.max_rate = control.turn_rate / player_commands.pace;
+        let stick = player_commands.stick();
+        controls.0 = if player_commands.assist {
+            let help = assisted(&motion.0, &stick, &engine, Reference::Orbit, &control.assist);
             avoiding.0 = help.avoiding;
             help.command
         } else {
             direct(&stick, &engine)
         };
         if let Some(mut trigger) = trigger {
-            trigger.pulled = hands.fire;
+            trigger.pulled = player_commands.fire;
         }
     }
 }
@@ -127,9 +128,9 @@ mod tests {
     #[test]
     fn sticks_come_back_within_half_a_step() {
         let stick = Stick { thrust: DVec3::new(0.3, -1.0, 2.0), turn: DVec3::new(f64::NAN, 0.004, -0.77) };
-        let back = Hands::holding(&stick).stick();
-        assert!((back.thrust - DVec3::new(0.3, -1.0, 1.0)).abs().max_element() <= 0.5 / Hands::FULL, "{back:?}");
-        assert!((back.turn - DVec3::new(0.0, 0.004, -0.77)).abs().max_element() <= 0.5 / Hands::FULL, "{back:?}");
-        assert_eq!(Hands { thrust: [-128, 0, 0], ..Hands::default() }.stick().thrust.x, -1.0);
+        let back = PlayerCommands::holding(&stick).stick();
+        assert!((back.thrust - DVec3::new(0.3, -1.0, 1.0)).abs().max_element() <= 0.5 / PlayerCommands::FULL, "{back:?}");
+        assert!((back.turn - DVec3::new(0.0, 0.004, -0.77)).abs().max_element() <= 0.5 / PlayerCommands::FULL, "{back:?}");
+        assert_eq!(PlayerCommands { thrust: [-128, 0, 0], ..PlayerCommands::default() }.stick().thrust.x, -1.0);
     }
 }

@@ -1,5 +1,5 @@
-//! Every door: a function that takes the bytes of what a person hands in, goes as far with them as the program does, and returns the text
-//! of the refusal, if there is one. The fuzz targets and the tests of the game call the same functions.
+//! Every fuzz target: a function that takes the bytes of untrusted input, goes as far with them as the program does, and returns the text
+//! of the refusal, if there is one. Fuzzing and the tests of the game call the same functions.
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -9,8 +9,8 @@ use lensrunner::lensing::project::{self, AngleFrame, ProjectError, ProjectReques
 use lensrunner::lensing::{Scheme, Table};
 use lensrunner::picture_file::moment::read_moment;
 use lensrunner::scene::config::{self, Assignment};
-use lensrunner::scene::crew::Crew;
 use lensrunner::scene::model::import::load_model;
+use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{self, Difficulty, GameConfig, Scene};
 use lensrunner::sim::replay::Replay;
 use lensrunner::sim::run::fly_to_end;
@@ -19,11 +19,11 @@ use lensrunner::sim::sweep::Axis;
 use lensrunner::sim::{Moment, agent, balance, check};
 use lensrunner::spacetime::light::{Branch, Order};
 
-/// A door: its name, and what it does with bytes.
-type Door = (&'static str, fn(&[u8]) -> Result<(), String>);
+/// A target: its name, and what it does with bytes.
+type Target = (&'static str, fn(&[u8]) -> Result<(), String>);
 
-/// All doors.
-pub const DOORS: &[Door] = &[
+/// All targets.
+pub const TARGETS: &[Target] = &[
     ("agent", agent),
     ("command", command),
     ("config", config),
@@ -47,16 +47,16 @@ const STEPS: u64 = 4;
 /// Scenes of more ships are read and not flown.
 const MOST_SHIPS: usize = 8;
 
-/// Opens the door called `name` with `bytes`. Panics if the refusal does not say where, or is too long.
-pub fn knock(name: &str, bytes: &[u8]) {
-    let Some((_, door)) = DOORS.iter().find(|(known, _)| *known == name) else { panic!("there is no door {name}") };
-    let Err(said) = door(bytes) else { return };
-    let has_place = ["door.", "line ", "--", "door:"].iter().any(|place| said.contains(place));
+/// Runs the target called `name` with `bytes`. Panics if the refusal does not say where, or is too long.
+pub fn check(name: &str, bytes: &[u8]) {
+    let Some((_, target)) = TARGETS.iter().find(|(known, _)| *known == name) else { panic!("there is no target {name}") };
+    let Err(said) = target(bytes) else { return };
+    let has_place = ["input.", "line ", "--", "input:"].iter().any(|place| said.contains(place));
     let is_short = said.lines().count() <= LINES && said.lines().all(|line| line.len() <= LONGEST);
     assert!(has_place && is_short, "{name}: {} bytes: {}", said.len(), said.chars().take(4000).collect::<String>());
 }
 
-/// The file `door.ENDING` in a folder of this thread, with these bytes.
+/// The file `input.ENDING` in a folder of this thread, with these bytes.
 fn file(ending: &str, bytes: &[u8]) -> PathBuf {
     struct Folder(PathBuf);
     impl Drop for Folder {
@@ -67,13 +67,13 @@ fn file(ending: &str, bytes: &[u8]) -> PathBuf {
     }
     thread_local! {
         static FOLDER: Folder = {
-            let name = format!("lensrunner-doors-{}-{:?}", std::process::id(), std::thread::current().id());
+            let name = format!("lensrunner-untrusted-{}-{:?}", std::process::id(), std::thread::current().id());
             let folder = std::env::temp_dir().join(name);
             std::fs::create_dir_all(&folder).expect("a folder");
             Folder(folder)
         };
     }
-    let path = FOLDER.with(|folder| folder.0.join(format!("door.{ending}")));
+    let path = FOLDER.with(|folder| folder.0.join(format!("input.{ending}")));
     std::fs::write(&path, bytes).expect("a file");
     path
 }
@@ -86,7 +86,7 @@ fn said<T, E: std::fmt::Display>(result: Result<T, E>) -> Result<T, String> {
 pub fn config(bytes: &[u8]) -> Result<(), String> {
     let path = file("toml", bytes);
     let found =
-        said(config::load(&path)).inspect_err(|wrong| assert!(wrong.contains("line ") || names_line(wrong, "door.toml"), "{wrong}"))?;
+        said(config::load(&path)).inspect_err(|wrong| assert!(wrong.contains("line ") || names_line(wrong, "input.toml"), "{wrong}"))?;
     assert_eq!(config::parse(&path, &config::template(&found)).expect("its own text"), found);
     if let Ok(text) = str::from_utf8(bytes) {
         let change = [said("render.orders=1".parse::<Assignment>())?];
@@ -108,7 +108,7 @@ fn names_line(said: &str, file: &str) -> bool {
 pub fn scene(bytes: &[u8]) -> Result<(), String> {
     let path = file("toml", bytes);
     let scene = said(scene::load(&path.to_string_lossy()))
-        .inspect_err(|wrong| assert!(wrong.contains("line ") || names_line(wrong, "door.toml"), "{wrong}"))?;
+        .inspect_err(|wrong| assert!(wrong.contains("line ") || names_line(wrong, "input.toml"), "{wrong}"))?;
     let usual = GameConfig::default();
     _ = (scene.disk(&usual), scene.model_files(), scene.record_name());
     // The picture of a planet takes a second, whatever the file says.
@@ -154,7 +154,7 @@ pub fn table(bytes: &[u8]) -> Result<(), String> {
         };
         for [r, phi, camera] in [[20.0, 1.0, 10.0], [1.5, 3.1, 0.9], [0.9, 0.1, 0.5], [9000.0, 2.0, 4000.0]] {
             for order in Order::ALL {
-                _ = method.project(methods::Query { r, phi, camera }, order, Branch::Plus);
+                _ = method.project(methods::ProjectionInput { r, phi, camera }, order, Branch::Plus);
             }
         }
         return Ok(());
@@ -248,13 +248,13 @@ pub fn command(bytes: &[u8]) -> Result<(), String> {
             assert_eq!(again.value, set.value);
         });
         let axis = Axis::from_str(word).map(|axis| assert!(!axis.values.is_empty()));
-        let name = Crew::from_str(word).map(|_| ());
+        let name = PilotKind::from_str(word).map(|_| ());
         let all = [set, axis, name, Difficulty::from_str(word).map(|_| ()), scene::picture_size(word).map(|_| ())];
         _ = scene::file(word);
         for wrong in all.iter().filter_map(|found| found.as_ref().err()) {
             assert!(wrong.len() <= LONGEST, "{} bytes: {wrong}", wrong.len());
             if !all.contains(&Ok(())) {
-                result = Err(format!("door: {wrong}"));
+                result = Err(format!("input: {wrong}"));
             }
         }
     }
@@ -265,7 +265,7 @@ pub fn command(bytes: &[u8]) -> Result<(), String> {
 
 /// What clap makes of words; its refusal quotes what was typed.
 fn arguments<A: clap::Args>(words: &[&str]) -> Result<A, String> {
-    let command = A::augment_args(clap::Command::new("door").no_binary_name(true));
+    let command = A::augment_args(clap::Command::new("input").no_binary_name(true));
     let matches = said(command.try_get_matches_from(words))?;
     said(A::from_arg_matches(&matches))
 }
@@ -277,7 +277,7 @@ pub fn agent(bytes: &[u8]) -> Result<(), String> {
     let request = agent::AgentRequest { config: &config, difficulty: Difficulty::Normal, until: 1.0, seed: 1 };
     let levelled = scene.config(&config, Difficulty::Normal);
     let replay = said(agent::fly(&scene, &levelled, &request, &mut &*bytes, &mut Vec::new()))?;
-    assert_eq!(Replay::from_text(Path::new("door"), &replay.to_text()).expect("its own text"), replay);
+    assert_eq!(Replay::from_text(Path::new("input"), &replay.to_text()).expect("its own text"), replay);
     Ok(())
 }
 
@@ -300,7 +300,7 @@ pub fn settings(bytes: &[u8]) -> Result<(), String> {
     let (choices, wrong) = lensrunner::play::choices::Choices::load_from(&path);
     choices.over(&mut GameConfig::default());
     // A damaged file is set aside: so many would be in the way.
-    _ = std::fs::remove_file(path.with_file_name("door.damaged-1.toml"));
+    _ = std::fs::remove_file(path.with_file_name("input.damaged-1.toml"));
     wrong.map_or(Ok(()), Err)
 }
 
@@ -317,5 +317,5 @@ pub fn scores(bytes: &[u8]) -> Result<(), String> {
         assert!(best.is_none_or(|best| best.score >= 0.0 && (1..=3).contains(&best.stars)), "{best:?}");
     }
     _ = std::fs::remove_file(path.with_file_name("records.damaged-1.toml"));
-    wrong.map_or(Ok(()), |wrong| Err(format!("door: {wrong}")))
+    wrong.map_or(Ok(()), |wrong| Err(format!("input: {wrong}")))
 }

@@ -4,7 +4,7 @@ use crate::render::settings::Settings;
 
 /// Something that can be drawn with less.
 #[derive(Clone, Copy, Debug)]
-pub struct Knob {
+pub struct QualityOption {
     /// Its name in tables.
     pub name: &'static str,
     /// Whether what it saves is done pixel by pixel.
@@ -17,18 +17,18 @@ pub struct Knob {
     set: fn(&mut Settings, f32),
 }
 
-/// The step of each knob, in the order of [`Knob::ALL`].
-pub type Steps = [u8; Knob::ALL.len()];
+/// The step of each option, in the order of [`QualityOption::ALL`].
+pub type OptionSteps = [u8; QualityOption::ALL.len()];
 
 /// Standard deviation of the narrowest spots of stars, in drawn pixels: as they move their light, sampled at pixel centres, changes by up to
 /// 4 % (twice its transform at the sampling frequency, e^{−2π²·0.45²}).
 const LEAST_SIGMA: f32 = 0.45;
 
-impl Knob {
+impl QualityOption {
     /// All of them.
-    pub const ALL: [Knob; 9] = [
+    pub const ALL: [QualityOption; 9] = [
         // Share of the width and height that is drawn.
-        Knob {
+        QualityOption {
             name: "resolution",
             is_by_pixel: false,
             values: &[1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.33, 0.25],
@@ -40,7 +40,7 @@ impl Knob {
             },
         },
         // Factor on the allowed error of a point.
-        Knob {
+        QualityOption {
             name: "pixel error",
             is_by_pixel: false,
             values: &[1.0, 2.0, 4.0, 8.0],
@@ -48,7 +48,7 @@ impl Knob {
             set: |settings, factor| settings.pixel_error *= factor,
         },
         // Width in drawn pixels from which images of bodies of order 2 and 3 are drawn, but no less than configured.
-        Knob {
+        QualityOption {
             name: "second images",
             is_by_pixel: false,
             values: &[0.0, 0.5, 2.0, f32::INFINITY],
@@ -56,7 +56,7 @@ impl Knob {
             set: |settings, width| settings.least_width = settings.least_width.max(f64::from(width)),
         },
         // Factor on the errors of the rings and arcs of the disk.
-        Knob {
+        QualityOption {
             name: "rings",
             is_by_pixel: false,
             values: &[1.0, 2.0, 4.0, 8.0],
@@ -64,7 +64,7 @@ impl Knob {
             set: |settings, factor| settings.ring_error *= factor,
         },
         // Most positions along a pixel at which a camera close to the disk looks gas up, but no more than configured.
-        Knob {
+        QualityOption {
             name: "gas",
             is_by_pixel: true,
             values: &[f32::INFINITY, 8.0, 4.0, 1.0],
@@ -72,7 +72,7 @@ impl Knob {
             set: |settings, looks| settings.gas_looks = settings.gas_looks.min(looks),
         },
         // Share of the streaks of the aurora.
-        Knob {
+        QualityOption {
             name: "streaks",
             is_by_pixel: false,
             values: &[1.0, 0.5, 0.25, 0.125],
@@ -80,7 +80,7 @@ impl Knob {
             set: |settings, share| settings.streaks *= share,
         },
         // Faintest magnitude of stars, but none fainter than configured.
-        Knob {
+        QualityOption {
             name: "stars",
             is_by_pixel: false,
             values: &[f32::INFINITY, 8.5, 7.5, 6.5],
@@ -88,7 +88,7 @@ impl Knob {
             set: |settings, magnitude| settings.faintest_star = settings.faintest_star.max(10f32.powf(-0.4 * magnitude)),
         },
         // Whether outlines are smoothed.
-        Knob {
+        QualityOption {
             name: "outlines",
             is_by_pixel: true,
             values: &[1.0, 0.0],
@@ -96,7 +96,7 @@ impl Knob {
             set: |settings, smooth| settings.smooth &= smooth > 0.0,
         },
         // Share of the light that the lens spreads.
-        Knob {
+        QualityOption {
             name: "bloom",
             is_by_pixel: true,
             values: &[1.0, 0.0],
@@ -116,21 +116,21 @@ impl Knob {
     }
 
     /// What a step is, in words.
-    pub fn says(&self, step: u8) -> String {
+    pub fn describe(&self, step: u8) -> String {
         if step == 0 { "as configured".into() } else { (self.words)(self.value(step)) }
     }
 }
 
 /// The share of the pixels that are drawn.
-pub fn area(steps: &Steps) -> f64 {
+pub fn area(steps: &OptionSteps) -> f64 {
     f64::from(turned(&Settings::finest(), steps).resolution).powi(2)
 }
 
-/// The settings with every knob at its step.
-pub fn turned(settings: &Settings, steps: &Steps) -> Settings {
+/// The settings with every option at its step.
+pub fn turned(settings: &Settings, steps: &OptionSteps) -> Settings {
     let mut settings = *settings;
-    for (knob, step) in Knob::ALL.into_iter().zip(steps) {
-        (knob.set)(&mut settings, knob.value(*step));
+    for (option, step) in QualityOption::ALL.into_iter().zip(steps) {
+        (option.set)(&mut settings, option.value(*step));
     }
     settings
 }
@@ -142,17 +142,17 @@ mod tests {
     #[test]
     fn step_0_is_as_configured_and_every_other_is_not() {
         let settings = Settings::finest();
-        assert_eq!(turned(&settings, &[0; Knob::ALL.len()]), settings);
-        for (k, knob) in Knob::ALL.into_iter().enumerate() {
-            for step in 1..knob.steps() {
-                let mut steps = [0; Knob::ALL.len()];
+        assert_eq!(turned(&settings, &[0; QualityOption::ALL.len()]), settings);
+        for (k, option) in QualityOption::ALL.into_iter().enumerate() {
+            for step in 1..option.steps() {
+                let mut steps = [0; QualityOption::ALL.len()];
                 steps[k] = step;
-                assert_ne!(turned(&settings, &steps), settings, "{} {step}", knob.name);
+                assert_ne!(turned(&settings, &steps), settings, "{} {step}", option.name);
             }
         }
     }
 
-    /// A knob never draws more than is configured.
+    /// A option never draws more than is configured.
     #[test]
     fn what_is_configured_coarser_stays_so() {
         let coarse = Settings { smooth: false, orders: 1, faintest_star: 1.0, ..Settings::finest() };

@@ -1,5 +1,5 @@
-//! Where the strokes of an image are stored until they are drawn. Two levels of the pyramid share a room: one fills it from the beginning,
-//! the other from the end, so the split between them need not be known. The next coarser pair has half as much room.
+//! Where the strokes of an image are stored until they are drawn. Two levels of the pyramid share a part of the buffer: one fills it from
+//! the beginning, the other from the end, so the split between them need not be known. The next coarser pair has half as much.
 
 use crate::render::aurora::levels::PYRAMID;
 
@@ -15,17 +15,17 @@ pub const DRAWS_BYTES: u64 = 16 * FOURS as u64;
 /// Vertices of a stroke; as in stroke.wgsl.
 pub const CORNERS: u32 = 6;
 
-/// The rooms of all images of a frame; as in shaders/aurora/rooms.wgsl.
+/// The capacities of all images of a frame, in strokes; as in shaders/aurora/capacities.wgsl.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Rooms {
-    /// Strokes in the room of the two finest levels; a multiple of 8, so that coarser ones are whole.
+pub struct StrokeCapacities {
+    /// Strokes in the part of the two finest levels; a multiple of 8, so that coarser ones are whole.
     pub finest: u64,
     /// Levels in use.
     pub levels: u32,
 }
 
-impl Rooms {
-    /// Number of strokes in front of the room of a pair of levels: the rooms of all finer pairs.
+impl StrokeCapacities {
+    /// Number of strokes in front of the part of a pair of levels: the parts of all finer pairs.
     fn before(&self, pair: u32) -> u64 {
         2 * self.finest - ((2 * self.finest) >> pair)
     }

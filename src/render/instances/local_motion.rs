@@ -1,6 +1,6 @@
 //! How a moving body moves, turns and contracts while its light crosses it. Its centre goes a smooth way, to fourth order in time; its
 //! attitude, and where centre and momentum stray from that way, are read from its history at even times, the nodes. They go to the GPU with the
-//! instance; [`swing_at`] is the twin of the shader's functions.
+//! instance; [`local_motion_at`] is the twin of the shader's functions.
 
 use glam::{DQuat, DVec3, Quat, Vec3, Vec4};
 
@@ -13,7 +13,7 @@ use crate::render::gpu::types::Instance;
 
 /// A node as the GPU reads it: the attitude (x, y, z, w, body to rain axes); what to add to the smooth way, in r_s; what to add to the
 /// smooth momentum, in c.
-pub type Node = [[f32; 4]; 3];
+pub type MotionNode = [[f32; 4]; 3];
 
 /// The fewest and the most times between the nodes of an image.
 const INTERVALS: (f64, f64) = (4.0, 48.0);
@@ -32,7 +32,7 @@ const FASTEST_WAY: f64 = 1.001;
 
 /// What is known of the image that a body is drawn in.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen {
+pub struct ImageExtent {
     /// Its light leaves so long before and after that of the centre, at most, in r_s/c.
     pub span: f64,
     /// Width, in pixels.
@@ -43,7 +43,7 @@ pub struct Seen {
 
 /// How a body moves about the emission time T₀ of its centre.
 #[derive(Clone, Debug)]
-pub struct Swing {
+pub struct LocalMotion {
     /// d²x/dT² of the centre, in c²/r_s.
     pub acceleration: DVec3,
     /// d³x/dT³ of the centre, in c³/r_s².
@@ -59,14 +59,14 @@ pub struct Swing {
     /// Time of the first node after T₀, and between two nodes, in r_s/c.
     pub times: [f64; 2],
     /// The nodes, at even times.
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<MotionNode>,
     /// Whether the centre or the momentum strays from its smooth way.
     pub strays: bool,
     /// Whether the body turned or sprang faster than any can, so that it is drawn going straight on.
     pub calmed: bool,
 }
 
-impl Swing {
+impl LocalMotion {
     /// From a body of this `reach` (r_s) and its history.
     ///
     /// The way is fitted to positions at T₀ − `reach`, T₀ and T₀ + `reach`, and to positions halfway. The fourth order is needed for what
@@ -74,7 +74,7 @@ impl Swing {
     /// thirtieth of r_s. A Taylor series about T₀ would be worst at the ends, where it matters.
     ///
     /// Nodes are at those of the history, or at every second or third, so that between two of them the turn is as even as it was flown.
-    pub fn new(history: &History, emission: f64, reach: f64, seen: &Seen) -> Swing {
+    pub fn new(history: &History, emission: f64, reach: f64, seen: &ImageExtent) -> LocalMotion {
         // For bodies smaller than a thousandth of r_s differences would be lost in rounding, and no motion is visible.
         let w = reach.max(1e-3);
         let now = history.at(emission);
@@ -84,7 +84,7 @@ impl Swing {
         // The even part in s is a s² + k s⁴/12.
         let (even, even_half) = (moved_on + moved_back, moved(&half_back, -0.5 * w) + moved(&half_on, 0.5 * w));
         let force = (later.momentum - earlier.momentum) / (2.0 * w);
-        let mut swing = Swing {
+        let mut local_motion = LocalMotion {
             acceleration: (even_half * 16.0 - even) / (3.0 * w * w),
             jerk: (moved_on - moved_back) * (3.0 / (w * w * w)),
             snap: (even - even_half * 4.0) * (16.0 / (w * w * w * w)),
@@ -96,8 +96,8 @@ impl Swing {
             strays: false,
             calmed: false,
         };
-        swing.take_nodes(history, emission, &now, reach, seen);
-        swing
+        local_motion.take_nodes(history, emission, &now, reach, seen);
+        local_motion
     }
 
     /// Without a turn and along a straight line, for a time `span` (r_s/c) before and after.
@@ -107,7 +107,7 @@ impl Swing {
         self.nodes = at_rest(attitude);
     }
 
-    fn take_nodes(&mut self, history: &History, emission: f64, now: &Sample, reach: f64, seen: &Seen) {
+    fn take_nodes(&mut self, history: &History, emission: f64, now: &Sample, reach: f64, seen: &ImageExtent) {
         let most = (PER_ROOT_PIXEL * seen.width.max(1.0).sqrt()).clamp(INTERVALS.0, INTERVALS.1);
         let (anchor, apart) = history.node_at(emission);
         let (coarse, fine) = (2.0 * seen.span / INTERVALS.0, 2.0 * seen.span / most);
@@ -129,11 +129,14 @@ impl Swing {
         }
         let fastest = turns[start..end].iter().copied().fold(0.0, f64::max);
         (times, samples) = (times[start..=end].to_vec(), samples[start..=end].to_vec());
-        let way = |swing: &Swing, s: f64| {
-            now.position + (now.velocity + (swing.acceleration + (swing.jerk + swing.snap * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s
+        let way = |local_motion: &LocalMotion, s: f64| {
+            now.position
+                + (now.velocity
+                    + (local_motion.acceleration + (local_motion.jerk + local_motion.snap * (0.25 * s)) * (s / 3.0)) * (0.5 * s))
+                    * s
         };
-        let asides = |swing: &Swing| -> Vec<DVec3> {
-            samples.iter().zip(&times).map(|(sample, time)| sample.position - way(swing, time - emission)).collect()
+        let asides = |local_motion: &LocalMotion| -> Vec<DVec3> {
+            samples.iter().zip(&times).map(|(sample, time)| sample.position - way(local_motion, time - emission)).collect()
         };
         let farthest = |asides: &[DVec3]| asides.iter().map(|aside| aside.length()).fold(0.0, f64::max);
         let mut beside = asides(self);
@@ -176,10 +179,10 @@ fn is_possible(earlier: &Sample, later: &Sample, reach: f64, step: f64) -> bool 
 }
 
 /// A point of a body some time after T₀: its offset from the centre at T₀ (r_s, rain axes, on the slice), dx/dT (c), and the attitude.
-pub type Swung = (Vec3, Vec3, Quat);
+pub type MovedPoint = (Vec3, Vec3, Quat);
 
-/// Where a point of a body (model's unit, body axes) is `s` r_s/c after T₀. Twin of `swing_at` in shaders/instances/recorded.wgsl.
-pub fn swing_at(instance: &Instance, nodes: &[Node], body: Vec3, s: f32) -> Swung {
+/// Where a point of a body (model's unit, body axes) is `s` r_s/c after T₀. Twin of `local_motion_at` in shaders/instances/recorded.wgsl.
+pub fn local_motion_at(instance: &Instance, nodes: &[MotionNode], body: Vec3, s: f32) -> MovedPoint {
     let xyz = |row: [f32; 4]| Vec3::new(row[0], row[1], row[2]);
     let scale = instance.scale;
     if scale == 0.0 {
@@ -199,16 +202,16 @@ pub fn swing_at(instance: &Instance, nodes: &[Node], body: Vec3, s: f32) -> Swun
     let rate = change.truncate() * mean.w - mean.truncate() * change.w - change.truncate().cross(mean.truncate());
     let turning = (rate * (2.0 / mean.length_squared())).cross(rest) * (per_time * inside);
     let strays = if instance.strays != 0.0 { 1.0 } else { 0.0 };
-    let mut swung = carried(instance, rest, turning, s, xyz(pushed_a).lerp(xyz(pushed_b), share) * strays);
+    let mut moved = carried(instance, rest, turning, s, xyz(pushed_a).lerp(xyz(pushed_b), share) * strays);
     if strays > 0.0 {
         let [a, b] = [aside_a, aside_b].map(xyz);
-        swung.0 += a.lerp(b, share);
-        swung.1 += (b - a) * (per_time * inside);
+        moved.0 += a.lerp(b, share);
+        moved.1 += (b - a) * (per_time * inside);
     }
-    (swung.0, swung.1, q)
+    (moved.0, moved.1, q)
 }
 
-/// Twin of `carried` in shaders/instances/swing.wgsl: offset and velocity.
+/// Twin of `carried` in shaders/instances/local_motion.wgsl: offset and velocity.
 fn carried(instance: &Instance, rest: Vec3, turning: Vec3, s: f32, pushed: Vec3) -> (Vec3, Vec3) {
     let [velocity, acceleration, jerk, snap, contraction, force] =
         [instance.velocity, instance.acceleration, instance.jerk, instance.snap, instance.contraction, instance.force]
@@ -222,6 +225,6 @@ fn carried(instance: &Instance, rest: Vec3, turning: Vec3, s: f32, pushed: Vec3)
 }
 
 /// A body that goes straight on from a sample of its history without turning: for one whose own motion has no numbers.
-pub fn at_rest(attitude: DQuat) -> Vec<Node> {
+pub fn at_rest(attitude: DQuat) -> Vec<MotionNode> {
     vec![[attitude.as_quat().to_array(), [0.0; 4], [0.0; 4]]; 2]
 }

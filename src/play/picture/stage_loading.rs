@@ -19,11 +19,11 @@ use crate::sim::snapshot::FrameCamera;
 
 /// The scene, ready for frames.
 #[derive(Resource, Debug)]
-pub struct Staged(pub Stage);
+pub struct CurrentStage(pub Stage);
 
 /// A scene that is not ready yet.
 #[derive(Resource, Debug)]
-pub enum Staging {
+pub enum StageLoading {
     /// Its models are being made.
     Making(JoinHandle<(Stage, SceneUpload)>),
     /// The renderer has it and compiles.
@@ -31,14 +31,15 @@ pub enum Staging {
 }
 
 /// Brings scenes to the renderer.
-pub struct StagingPlugin;
+pub struct StageLoadingPlugin;
 
-impl Plugin for StagingPlugin {
+impl Plugin for StageLoadingPlugin {
     fn build(&self, app: &mut App) {
-        let nothing = not(resource_exists::<Staged>.or_else(resource_exists::<Staging>));
+        let nothing = not(resource_exists::<CurrentStage>.or_else(resource_exists::<StageLoading>));
         app.init_resource::<Loading>().add_systems(
             PreUpdate,
-            (restage.run_if(nothing), hand_over.run_if(resource_exists::<Staging>), show.run_if(resource_exists::<Staging>)).chain(),
+            (restage.run_if(nothing), hand_over.run_if(resource_exists::<StageLoading>), show.run_if(resource_exists::<StageLoading>))
+                .chain(),
         );
     }
 }
@@ -53,18 +54,18 @@ pub fn restage(world: &mut World) {
     };
     match std::thread::Builder::new().name("scene".to_owned()).spawn(make) {
         // What an earlier thread makes is not wanted any more.
-        Ok(making) => world.insert_resource(Staging::Making(making)),
+        Ok(making) => world.insert_resource(StageLoading::Making(making)),
         Err(reason) => fail(world, &reason.to_string()),
     }
 }
 
 /// The same for another scene than before: there is no picture until it is there.
 pub fn change_scene(world: &mut World) {
-    if !world.contains_resource::<Staged>() && !world.contains_resource::<Staging>() {
+    if !world.contains_resource::<CurrentStage>() && !world.contains_resource::<StageLoading>() {
         // It has not begun: it will with the session as it is then.
         return;
     }
-    world.remove_resource::<Staged>();
+    world.remove_resource::<CurrentStage>();
     world.init_resource::<Loading>();
     world.insert_resource(FrameToDraw(None));
     restage(world);
@@ -78,15 +79,15 @@ fn fail(world: &mut World, reason: &str) {
 
 /// What is made goes to the renderer: at once where the picture before is shown on, else to be rehearsed.
 fn hand_over(world: &mut World) {
-    let making = match world.remove_resource::<Staging>() {
-        Some(Staging::Making(making)) if making.is_finished() => making,
+    let making = match world.remove_resource::<StageLoading>() {
+        Some(StageLoading::Making(making)) if making.is_finished() => making,
         Some(other) => return world.insert_resource(other),
         None => return,
     };
     let Ok((mut stage, mut upload)) = making.join() else { return fail(world, "its models could not be made") };
-    if world.contains_resource::<Staged>() {
+    if world.contains_resource::<CurrentStage>() {
         world.insert_resource(SceneToDraw(Some(Arc::new(upload))));
-        world.insert_resource(Staged(stage));
+        world.insert_resource(CurrentStage(stage));
         // A frame of the models before names some that are no longer there.
         world.insert_resource(FrameToDraw(None));
         return;
@@ -94,17 +95,17 @@ fn hand_over(world: &mut World) {
     upload.rehearsal = world.run_system_cached_with(rehearsal, &mut stage).unwrap_or_default();
     let upload = Arc::new(upload);
     world.insert_resource(SceneToDraw(Some(upload.clone())));
-    world.insert_resource(Staging::HandedOver(Box::new(stage), upload));
+    world.insert_resource(StageLoading::HandedOver(Box::new(stage), upload));
 }
 
 /// Once the renderer is ready, frames are made.
 fn show(world: &mut World) {
-    let Some(Staging::HandedOver(_, upload)) = world.get_resource::<Staging>() else { return };
+    let Some(StageLoading::HandedOver(_, upload)) = world.get_resource::<StageLoading>() else { return };
     if !world.resource::<SceneReady>().0.as_ref().is_some_and(|ready| Arc::ptr_eq(ready, upload)) {
         return;
     }
-    if let Some(Staging::HandedOver(stage, _)) = world.remove_resource::<Staging>() {
-        world.insert_resource(Staged(*stage));
+    if let Some(StageLoading::HandedOver(stage, _)) = world.remove_resource::<StageLoading>() {
+        world.insert_resource(CurrentStage(*stage));
         world.remove_resource::<Loading>();
     }
 }
