@@ -1,7 +1,7 @@
 //! Who takes part, and with which rays.
 
 use super::others::{Obvhs, Svenstaro};
-use super::rays::{Job, SIZES};
+use super::rays::{Job, SIZES, Trace};
 use crate::chart::ChartError;
 use crate::straight::{BvhSettings, EyePacket, EyePackets, Hit, Mesh, Packets, Ray, Wide, order};
 
@@ -28,9 +28,6 @@ impl Built {
         })
     }
 }
-
-/// Traces rays and writes their hits.
-pub type Trace<'a> = Box<dyn FnMut(&mut [Hit]) + 'a>;
 
 /// One method with one set of rays.
 pub struct Entry<'a> {

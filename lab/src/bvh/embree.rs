@@ -10,7 +10,7 @@ use embree3::{
 use crate::straight::scenes::Triangle;
 use crate::straight::{Hit, Ray};
 
-use super::contest::Trace;
+use super::rays::Trace;
 
 /// What Embree could not do, and why not.
 #[derive(Debug, thiserror::Error)]

@@ -15,6 +15,9 @@ const SIZE: [usize; 2] = [1024, 768];
 /// Edges of packets in pixels.
 pub const SIZES: [usize; 6] = [2, 4, 8, 16, 32, 64];
 
+/// Traces rays and writes their hits.
+pub type Trace<'a> = Box<dyn FnMut(&mut [Hit]) + 'a>;
+
 /// A scene with the rays that it is measured with.
 pub struct Job {
     pub scene: TestScene,
