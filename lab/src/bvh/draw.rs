@@ -1,7 +1,6 @@
 //! The picture: the figures of Sei 2008 again, and who is faster.
 
-use super::SCENES;
-use super::rays::SIZES;
+use super::rays::{SCENES, SIZES};
 use crate::chart::{Provenance, Sheet, range};
 use crate::plot::{Axis, Bars, Figure, Guide, Line, Lines, Panel, Series};
 

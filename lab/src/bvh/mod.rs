@@ -15,7 +15,7 @@ use lensrunner::argument::whole;
 
 use crate::chart::{ChartError, Output, Sheet, interleaved_by, thread_time, times_the_first};
 use crate::straight::Hit;
-use rays::Job;
+use rays::{Job, SCENES};
 
 /// Tracers of straight rays on one thread: ours, those of Sei 2008, the crates obvhs and bvh, and Embree in a build with the feature
 /// embree.
@@ -38,9 +38,6 @@ pub struct BvhRequest {
     pub check: bool,
 }
 
-/// Every scene of Sei 2008, in its order.
-pub(crate) const SCENES: [&str; 6] = ["bunny", "castle", "tree10", "balls4A", "balls4B", "balls4C"];
-
 /// How many times as often as everything else runs what is compared with 8 × 8: single percents are to be told apart there.
 const MORE_ROUNDS: usize = 10;
 
@@ -50,7 +47,7 @@ pub fn run(request: &BvhRequest) -> Result<Vec<PathBuf>, ChartError> {
         return Err(ChartError::Input(format!("--scenes {unknown}: unknown; there are {}", SCENES.join(", "))));
     }
     if request.check {
-        let wrong = request.scenes.iter().map(|name| check::check(&Job::new(name, request)?)).sum::<Result<usize, ChartError>>()?;
+        let wrong = request.scenes.iter().map(|name| check::check(&Job::new(name, &request.bunny)?)).sum::<Result<usize, ChartError>>()?;
         return if wrong == 0 { Ok(Vec::new()) } else { Err(ChartError::Failed(format!("{wrong} hits are wrong"))) };
     }
     let sheet = request.output.sheet("bvh", || measure(request))?;
@@ -64,7 +61,7 @@ const COLUMNS: [&str; 10] =
 fn measure(request: &BvhRequest) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::measured(&COLUMNS, "");
     for name in &request.scenes {
-        let job = Job::new(name, request)?;
+        let job = Job::new(name, &request.bunny)?;
         let triangles = job.scene.triangles.len();
         eprintln!("{name}: {triangles} triangles{}", if job.stand_in { " (stand-in)" } else { "" });
         let built = contest::Built::new(&job)?;

@@ -1,13 +1,17 @@
 //! The scenes of the chart and the rays through them.
 
+use std::path::Path;
+
 use glam::{DVec3, Vec3};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use super::{BvhRequest, SCENES};
 use crate::chart::ChartError;
 use crate::straight::scenes::{TestScene, bunny, castle, spd};
 use crate::straight::{Hit, Ray, Wide, order};
+
+/// Every scene of Sei 2008, in its order.
+pub const SCENES: [&str; 6] = ["bunny", "castle", "tree10", "balls4A", "balls4B", "balls4C"];
 
 /// Width and height of the picture.
 const SIZE: [usize; 2] = [1024, 768];
@@ -33,12 +37,12 @@ pub struct Job {
 }
 
 impl Job {
-    /// Of one of [`SCENES`].
-    pub fn new(name: &str, request: &BvhRequest) -> Result<Job, ChartError> {
-        let stand_in = name == "bunny" && !request.bunny.exists();
+    /// Of one of [`SCENES`], with the bunny of this file.
+    pub fn new(name: &str, bunny_file: &Path) -> Result<Job, ChartError> {
+        let stand_in = name == "bunny" && !bunny_file.exists();
         let (triangles, view) = match name {
             "bunny" if stand_in => (bunny::stand_in(), bunny::VIEW),
-            "bunny" => (bunny::read(&request.bunny).map_err(ChartError::Input)?, bunny::VIEW),
+            "bunny" => (bunny::read(bunny_file).map_err(ChartError::Input)?, bunny::VIEW),
             "castle" => (castle::castle(), castle::VIEW),
             "tree10" => (spd::tree(10), spd::TREE_VIEW),
             "balls4A" => (spd::balls(4), spd::BALLS_VIEW),

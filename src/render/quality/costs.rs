@@ -44,7 +44,7 @@ impl SceneClass {
     }
 }
 
-/// What one step of a option comes to, all others at their finest.
+/// What one step of an option comes to, all others at their finest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QualityCost {
     /// Error that it adds, in mean FLIP: at most this at 99 of 100 moments.

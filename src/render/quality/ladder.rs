@@ -21,7 +21,7 @@ pub struct QualityRung {
 /// Less than this share of the time is not worth an error: it is within what measurements differ by.
 const LEAST_SAVED: f64 = 0.01;
 
-/// Added to the error of any rung but the finest: what single moments differ by where a option mostly changes nothing.
+/// Added to the error of any rung but the finest: what single moments differ by where an option mostly changes nothing.
 const LEAST_ERROR: f64 = 0.003;
 
 impl QualityRung {
