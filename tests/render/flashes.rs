@@ -4,7 +4,6 @@ use glam::{DQuat, DVec3};
 use lensrunner::play::demonstration::drawn;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::targets::target;
-use lensrunner::render::renderer::Renderer;
 use lensrunner::render::settings::{GREATEST_RISE, Settings, greatest_rise};
 use lensrunner::render::stage::{self, Stage, static_camera};
 use lensrunner::scene::{self, GameConfig};
@@ -12,7 +11,7 @@ use lensrunner::sim::Moment;
 use lensrunner::spacetime::Observer;
 
 use crate::gpu::GPU;
-use crate::render::support::{linear, renderer};
+use crate::render::support::{LentRenderer, linear, renderer};
 
 const SIZE: [u32; 2] = [160, 90];
 /// Simulated time of a frame, in s.
@@ -24,7 +23,7 @@ const TOLERANCE: f64 = 3e-4;
 
 /// A scene that is shown frame by frame.
 struct Show {
-    renderer: Renderer,
+    renderer: LentRenderer,
     stage: Stage,
     moment: Moment,
     settings: Settings,

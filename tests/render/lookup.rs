@@ -7,7 +7,6 @@ use glam::{DMat3, DQuat, DVec3};
 use lensrunner::judge::shoot;
 use lensrunner::lensing::methods::{self, Method, flat};
 use lensrunner::lensing::{Scheme, Slice, bake};
-use lensrunner::render::Renderer;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback;
 use lensrunner::render::gpu::types::SeenVertex;
@@ -23,7 +22,7 @@ use lensrunner::spacetime::light::{self, Branch, Order};
 use lensrunner::spacetime::matter::{ShipState, gamma, step};
 
 use crate::gpu::GPU;
-use crate::render::support::renderer;
+use crate::render::support::{LentRenderer, renderer};
 
 /// One for all: most of a renderer's time here is the compiling of its passes.
 static BENCH: LazyLock<Mutex<Bench>> = LazyLock::new(|| Mutex::new(Bench::new([64, 36])));
@@ -35,7 +34,7 @@ pub fn bench() -> MutexGuard<'static, Bench> {
 
 /// A renderer without sky, and a small ball on it.
 pub struct Bench {
-    pub renderer: Renderer,
+    pub renderer: LentRenderer,
     pub ball: Model,
     model: lensrunner::render::models::ModelRange,
 }

@@ -2,7 +2,6 @@
 
 use lensrunner::judge::picture::post_process::{PostProcessSettings, post_process};
 use lensrunner::render::gpu::readback::ReadbackPicture;
-use lensrunner::render::renderer::Renderer;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage;
 use lensrunner::render::stage::Stage;
@@ -10,7 +9,7 @@ use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::Moment;
 use lensrunner::spacetime::Observer;
 
-use crate::render::support::{linear, renderer};
+use crate::render::support::{LentRenderer, linear, renderer};
 
 /// A scene at T = 0, with its layers.
 fn picture(name: &str, size: [u32; 2], settings: &Settings) -> ReadbackPicture {
@@ -89,7 +88,7 @@ fn outlines_of_bodies_are_smooth() {
 }
 
 /// The chase at its start, ready to be drawn.
-fn a_chase(size: [u32; 2]) -> ([u32; 2], GameConfig, Renderer, Stage, Moment) {
+fn a_chase(size: [u32; 2]) -> ([u32; 2], GameConfig, LentRenderer, Stage, Moment) {
     let mut config = GameConfig::default();
     // Its strokes are added in any order, which rounding tells.
     config.aurora.enabled = false;

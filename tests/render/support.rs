@@ -1,16 +1,18 @@
 //! What several tests of the renderer need.
 
-use lensrunner::spacetime::Observer;
+use std::ops::{Deref, DerefMut};
+use std::sync::{Mutex, PoisonError};
 
 use glam::DVec3;
 use lensrunner::render::Renderer;
 use lensrunner::render::disk::DrawnDisk;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::ReadbackPicture;
-use lensrunner::render::renderer::Surroundings;
+use lensrunner::render::renderer::{SceneUpload, Surroundings};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::{self, Stage, static_camera};
 use lensrunner::scene::GameConfig;
+use lensrunner::spacetime::Observer;
 
 use crate::gpu::GPU;
 use crate::support::shared_table;
@@ -25,9 +27,45 @@ pub fn renderer_under(surroundings: &Surroundings, size: [u32; 2]) -> Renderer {
     Renderer::new(&GPU, surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size)
 }
 
-/// The same under a sky without light.
-pub fn renderer(size: [u32; 2]) -> Renderer {
-    renderer_under(&surroundings(), size)
+/// The same under a sky without light, one that another test has done with if there is one: most of a renderer's time here is the compiling
+/// of its passes.
+pub fn renderer(size: [u32; 2]) -> LentRenderer {
+    let idle = IDLE.lock().unwrap_or_else(PoisonError::into_inner).pop();
+    let mut renderer = idle.unwrap_or_else(|| renderer_under(&surroundings(), size));
+    renderer.resize(size);
+    renderer.upload(&SceneUpload::default());
+    renderer.set_counting(false);
+    renderer.nothing_shown();
+    LentRenderer(Some(renderer))
+}
+
+/// Renderers that no test uses now.
+static IDLE: Mutex<Vec<Renderer>> = Mutex::new(Vec::new());
+
+/// A renderer that the next test gets.
+pub struct LentRenderer(Option<Renderer>);
+
+impl Deref for LentRenderer {
+    type Target = Renderer;
+
+    fn deref(&self) -> &Renderer {
+        self.0.as_ref().expect("it is given back last")
+    }
+}
+
+impl DerefMut for LentRenderer {
+    fn deref_mut(&mut self) -> &mut Renderer {
+        self.0.as_mut().expect("it is given back last")
+    }
+}
+
+impl Drop for LentRenderer {
+    fn drop(&mut self) {
+        // What a failed test leaves is not trusted.
+        if !std::thread::panicking() {
+            IDLE.lock().unwrap_or_else(PoisonError::into_inner).extend(self.0.take());
+        }
+    }
 }
 
 /// A hovering camera `degrees` from the disk's axis at radius `l`, looking at the hole.

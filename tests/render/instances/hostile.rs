@@ -5,7 +5,6 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 
 use glam::{DQuat, DVec3};
 use lensrunner::lensing::Slice;
-use lensrunner::render::Renderer;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::types::Counters;
 use lensrunner::render::instances::{DrawnObject, Illumination, InstanceView, ObjectMotion, instances_of};
@@ -22,7 +21,7 @@ use lensrunner::spacetime::matter::{ShipState, momentum_of, step};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-use crate::render::support::renderer;
+use crate::render::support::{LentRenderer, renderer};
 
 const SIZE: [u32; 2] = [160, 90];
 const LENGTH: f64 = 0.25;
@@ -30,7 +29,7 @@ const LENGTH: f64 = 0.25;
 const MOST: f64 = 4.0;
 
 struct Yard {
-    renderer: Renderer,
+    renderer: LentRenderer,
     ship: ModelRange,
     reach: f64,
 }
