@@ -13,7 +13,7 @@ use crate::render_support::{camera, renderer, settings};
 /// T, in r_s/c.
 const TIME: f64 = 100.0;
 /// Times so far apart that streaks have been renewed: one more or less of them is a tenth of the third image's light.
-const TIMES: [f64; 3] = [TIME, 600.0, 1100.0];
+const TIMES: [f64; 6] = [TIME, 400.0, 700.0, 1000.0, 1300.0, 1600.0];
 /// Samples squared in a pixel of the exact picture: the third image is a tenth of a pixel wide.
 const SAMPLES: u32 = 6;
 
