@@ -25,7 +25,10 @@ use crate::support::Folder;
 
 /// The game at its first start.
 fn game(folder: &Folder) -> App {
-    game_of(folder, Session::load(None, None, Some(3)).unwrap(), [160, 90])
+    let mut session = Session::load(None, None, Some(3)).unwrap();
+    // What is tested here is not the picture.
+    (session.config.render.orders, session.config.render.pixel_error_budget, session.config.aurora.enabled) = (1, 8.0, false);
+    game_of(folder, session, [160, 90])
 }
 
 /// The same of a session, on a picture of this size.

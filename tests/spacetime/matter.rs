@@ -338,7 +338,7 @@ fn what_came_out_of_the_hole_is_known_by_its_constants() {
     let mut random = StdRng::seed_from_u64(7);
     let mut direction = move || DVec3::from_array([0; 3].map(|_| random.random_range(-1.0..1.0)));
     let mut counts = [0; 2];
-    for _ in 0..400 {
+    for _ in 0..120 {
         let position = direction() * 12.0;
         if position.length() < 1.05 {
             continue;
@@ -355,7 +355,7 @@ fn what_came_out_of_the_hole_is_known_by_its_constants() {
         assert_eq!(came_out_of_the_hole(&state), came_out, "{state:?}");
         counts[usize::from(came_out)] += 1;
     }
-    assert!(counts.into_iter().min() > Some(20), "{counts:?}");
+    assert!(counts.into_iter().min() > Some(6), "{counts:?}");
 }
 
 /// Circles, unstable ones too, were always there; so was what flies by. What is dropped was thrown up from the hole.
