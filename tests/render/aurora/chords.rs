@@ -111,7 +111,8 @@ fn hold(renderer: &mut Renderer, planet: &Planet, camera: Observer, config: &Gam
     let (mut off, mut by_chords) = (Vec::new(), Vec::new());
     for (number, (own, fine)) in own.iter().zip(&fine).enumerate() {
         let (kind, image) = (number % 2, frame.instances[number / per_image].order);
-        if order.is_some_and(|order| order != image) || number / 2 % COMPARED != 0 {
+        // Where one order alone is compared, there are few.
+        if order.map_or(number / 2 % COMPARED != 0, |order| order != image) {
             continue;
         }
         let pixel = |seen: DVec3| camera.pixel(seen, SIZE).map(DVec2::from);
@@ -152,7 +153,7 @@ fn hold(renderer: &mut Renderer, planet: &Planet, camera: Observer, config: &Gam
         format!("{over} over, {:.2} in 99 of 100, worst {:.2}", off[off.len() * 99 / 100], off[off.len() - 1])
     };
     println!("{} chords, {} streaks: {}; chords alone: {}", frame.settings.chords, off.len(), summary(&off), summary(&by_chords));
-    assert!(off.len() > 100);
+    assert!(off.len() > 60);
     [off, by_chords]
 }
 
