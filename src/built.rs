@@ -2,8 +2,8 @@
 
 include!(concat!(env!("OUT_DIR"), "/built.rs"));
 
-/// The first twelve letters of the commit that the last line of a log of git (`.git/logs/HEAD`) leads to: the second of its two names. Zeros
-/// where there is none.
+/// The first twelve letters of the commit that the last line of a log of git (`.git/logs/HEAD`) leads to: the second of its two names.
+/// Zeros where there is none.
 const fn last_commit(log: &[u8]) -> [u8; 12] {
     let mut start = log.len().saturating_sub(1);
     while start > 0 && log[start - 1] != b'\n' {

@@ -1,8 +1,8 @@
 //! Files that the game comes with: scenes, missions, replays, models, sky, tables. It imports no floor, and every floor may import it.
 //!
-//! A file is named as in the project's folder: `assets/scenes/chase.toml`. It is looked for in the user's folder, beside the program, in the
-//! project's folder where the program is started in one, and last inside the program: the command line embeds them ([`embed`]); the library
-//! alone has none.
+//! A file is named as in the project's folder: `assets/scenes/chase.toml`. It is looked for in the user's folder, beside the program, in
+//! the project's folder where the program is started in one, and last inside the program: the command line embeds them ([`embed`]); the
+//! library alone has none.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;

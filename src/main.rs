@@ -200,8 +200,8 @@ struct SimulateArgs {
 /// Says where points are seen: CSV r,phi,L on standard input, CSV r,phi,L,psi,delay,redshift on standard output.
 ///
 /// Lengths in r_s, angles in radians, phi in [0, π], delay in r_s/c. psi is measured at the camera from the outward radial direction;
-/// redshift is ν_observed/ν_emitted between static observers. Fields stay empty where nothing is seen. Rows are answered as they come: above a
-/// wrong line there may be answers already.
+/// redshift is ν_observed/ν_emitted between static observers. Fields stay empty where nothing is seen. Rows are answered as they come:
+/// above a wrong line there may be answers already.
 #[derive(Args)]
 #[command(after_long_help = methods::help(), after_help = methods::help())]
 struct ProjectArgs {

@@ -1,5 +1,5 @@
-//! Whether any frame stands still, or shows what has no numbers, while hands throw the ship about: missions at several paces, a frame each 1/30 s
-//! of wall time: `lensrunner-lab chart hands`.
+//! Whether any frame stands still, or shows what has no numbers, while hands throw the ship about: missions at several paces, a frame each
+//! 1/30 s of wall time: `lensrunner-lab chart hands`.
 
 use std::path::PathBuf;
 use std::time::Instant;

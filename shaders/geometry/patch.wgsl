@@ -237,9 +237,9 @@ fn ring_strictness(instance: Instance, nearest: f32, pixel: f32, along: f32) -> 
 const LIMB_SINE: f32 = 0.15;
 
 /// Whether the edge of a model between two triangles may be an outline: light leaves one of them outward and the other inward, or does so
-/// differently at its two ends (directions at T₀, `before_turning`). Normals of vertices, which are for shading, do not tell this for a body
-/// with corners. Nor do positions on the screen: an edge stretched along the ring bends by more than the width of its triangles. `edge` has
-/// the two vertices of the edge and the two opposite to it.
+/// differently at its two ends (directions at T₀, `before_turning`). Normals of vertices, which are for shading, do not tell this for a
+/// body with corners. Nor do positions on the screen: an edge stretched along the ring bends by more than the width of its triangles.
+/// `edge` has the two vertices of the edge and the two opposite to it.
 fn on_limb(instance: Instance, edge: vec4<u32>, leaving_a: vec3<f32>, leaving_b: vec3<f32>, offset: vec3<f32>) -> bool {
     let first = instance.first_vertex;
     let corner = model_position(first + edge.x);

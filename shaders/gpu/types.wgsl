@@ -283,8 +283,8 @@ struct SeenVertex {
     material: u32,
     /// Of a fan: texture coordinates at the axis,
     axis_uv: vec2<f32>,
-    /// and how far from there (0) towards the outer edge (1; 1 elsewhere) the vertex is. The product is left to the pixels: over a cell that
-    /// narrows to a point of the surface it is not linear.
+    /// and how far from there (0) towards the outer edge (1; 1 elsewhere) the vertex is. The product is left to the pixels: over a cell
+    /// that narrows to a point of the surface it is not linear.
     from_axis: f32,
     /// Height over the disk's plane at emission, in r_s.
     height: f32,

@@ -14,8 +14,9 @@ struct MovedPoint {
     attitude: vec4<f32>,
 }
 
-/// The point that lies at `rest` (r_s, rain axes, rest frame) from the centre, `s` after T₀, and moves with `turning` (c) round it: contracted
-/// by the momentum of that moment, which is `pushed` beside one that grows evenly, and carried along with the centre to fourth order.
+/// The point that lies at `rest` (r_s, rain axes, rest frame) from the centre, `s` after T₀, and moves with `turning` (c) round it:
+/// contracted by the momentum of that moment, which is `pushed` beside one that grows evenly, and carried along with the centre to fourth
+/// order.
 fn carried(instance: Instance, rest: vec3<f32>, turning: vec3<f32>, s: f32, pushed: vec3<f32>) -> MovedPoint {
     let way = (instance.velocity + (instance.acceleration + (instance.jerk + instance.snap * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s;
     let velocity = instance.velocity + (instance.acceleration + (instance.jerk + instance.snap * (s / 3.0)) * (0.5 * s)) * s;

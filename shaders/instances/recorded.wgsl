@@ -74,7 +74,8 @@ fn before_turning(instance: Instance, leaving: vec3<f32>, delay: f32) -> vec3<f3
     return leaving - cross(instance.spin * (instance.delay - delay), leaving);
 }
 
-/// By how much the sine of light against a surface may be off what `before_turning` tells: for uneven turns, and for the surface's own speed.
+/// By how much the sine of light against a surface may be off what `before_turning` tells: for uneven turns, and for the surface's own
+/// speed.
 fn turning_slack(instance: Instance) -> f32 {
     return instance.spin_slack;
 }

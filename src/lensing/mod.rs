@@ -73,8 +73,8 @@ fn usable(file: &GameFile, scheme: Scheme, nodes: usize) -> Result<Table, TableE
     if has_fewer { Err(TableError::Nodes(file.path.clone(), table.size, wanted)) } else { Ok(table) }
 }
 
-/// The table of `path`; where that cannot be used or has fewer nodes, `complain` is told why, the table is baked with `nodes` and written there
-/// (`complain` is told if that fails), and never anything drawn from the file.
+/// The table of `path`; where that cannot be used or has fewer nodes, `complain` is told why, the table is baked with `nodes` and written
+/// there (`complain` is told if that fails), and never anything drawn from the file.
 pub fn load_or_bake(path: &Path, scheme: Scheme, nodes: usize, complain: impl Fn(&TableError), done: impl Fn(f64) + Sync) -> Table {
     usable(&GameFile::at(path), scheme, nodes).inspect_err(&complain).unwrap_or_else(|_| bake_to(path, scheme, nodes, &complain, done))
 }

@@ -64,8 +64,9 @@ pub struct RenderStatistics {
 #[derive(Resource, Clone, Copy, Debug, Default)]
 struct PlannedView(Option<Entity>);
 
-/// Draws [`FrameToDraw`] into the view of the 2-D camera; of several, into that of the first by their order. Add it after Bevy's `RenderPlugin`. Passes are compiled on a thread of their
-/// own; until then nothing is drawn. If there is no device, or one that is too small, the app ends with an error.
+/// Draws [`FrameToDraw`] into the view of the 2-D camera; of several, into that of the first by their order. Add it after Bevy's
+/// `RenderPlugin`. Passes are compiled on a thread of their own; until then nothing is drawn. If there is no device, or one that is too
+/// small, the app ends with an error.
 pub struct RelativisticRenderPlugin {
     /// Makes table, stars, Milky Way; called on a thread of its own.
     pub surroundings: fn() -> Surroundings,
@@ -237,8 +238,8 @@ fn prepare_bind_groups(planned: Res<PlannedView>, mut loader: ResMut<RendererLoa
     }
 }
 
-/// Records the passes of the frame that is prepared for this view. [`RenderDiagnosticsPlugin`](bevy::render::diagnostic::RenderDiagnosticsPlugin)
-/// gets their time together.
+/// Records the passes of the frame that is prepared for this view.
+/// [`RenderDiagnosticsPlugin`](bevy::render::diagnostic::RenderDiagnosticsPlugin) gets their time together.
 fn draw(view: ViewQuery<&ViewTarget>, planned: Res<PlannedView>, mut loader: ResMut<RendererLoader>, mut context: RenderContext) {
     let Some(renderer) = loader.renderer().filter(|_| planned.0 == Some(view.entity())) else { return };
     let diagnostics = context.diagnostic_recorder();

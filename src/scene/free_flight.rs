@@ -5,7 +5,8 @@ use super::ship::ShipSpec;
 use crate::spacetime::matter::ShipState;
 
 impl Scene {
-    /// The scene with somebody to fly: without ships it gets one, where its camera is at T = 0. Beside a planet there is none: ships are a million times as large.
+    /// The scene with somebody to fly: without ships it gets one, where its camera is at T = 0. Beside a planet there is none: ships are a
+    /// million times as large.
     pub fn with_a_ship(mut self) -> Scene {
         if self.ships.is_empty() && self.planet.is_none() {
             let camera = self.camera.viewpoint(0.0, &[]);

@@ -9,12 +9,12 @@
 //! orbit = { radius = 5.0, inclination = 0.1, node = 0.0, phase = 0.0 }
 //! orbit = { semi_latus_rectum = 5.0, eccentricity = 0.5, anomaly = 3.14159, inclination = 0.1, node = 0.0, phase = 0.0 }
 //! facing = "quarry"                # or: it looks at where it sees that ship at the start
-//! scatter = { radius = 0.5, phase = 0.4, tilt = 0.1 }  # by chance it starts so much farther in or out (r_s), on or back (rad), tilted (rad)
-//! attitude = [1.0, 0.0, 0.0, 0.0]  # w, x, y, z: body to rain axes through the pure boost of the momentum; forward is −z
+//! scatter = { radius = 0.5, phase = 0.4, tilt = 0.1 }  # by chance it starts so much farther in or out (r_s), on or back (rad), tilted
+//! (rad) attitude = [1.0, 0.0, 0.0, 0.0]  # w, x, y, z: body to rain axes through the pure boost of the momentum; forward is −z
 //! ai = "none"                      # or "flee", "pursue"; "hands" throw it about
 //! target = "hunter"                # whom the AI flees or pursues; the first other ship if absent
-//! sees = "now"                     # what the AI knows of others: "now"; "light", what light has brought; "second-image", older light alone
-//! thrust = [{ from = 0.0, until = 10.0, acceleration = [0.0, 0.0, -0.05] }]  # body axes, c²/r_s; with ai = "none" only
+//! sees = "now"                     # what the AI knows of others: "now"; "light", what light has brought; "second-image", older light
+//! alone thrust = [{ from = 0.0, until = 10.0, acceleration = [0.0, 0.0, -0.05] }]  # body axes, c²/r_s; with ai = "none" only
 //! fuel = 2.0                       # Δv in c (∫ |proper acceleration| dτ); if absent the game's for player and AI, for others without end
 //! max_thrust = 0.06                # c²/r_s, for AI and player; the game's value if absent
 //! player = true                    # flown from the keyboard when there is one, else by its AI

@@ -290,8 +290,8 @@ impl History {
         }
     }
 
-    /// The ship at T = `time`. Beyond the latest node it coasts on; before the oldest it coasted there or hovered (integrated at the first look
-    /// that far, as [`History::reach_back`] does it).
+    /// The ship at T = `time`. Beyond the latest node it coasts on; before the oldest it coasted there or hovered (integrated at the first
+    /// look that far, as [`History::reach_back`] does it).
     pub fn at(&self, time: f64) -> Sample {
         let (first, last) = (self.nodes[0], self.last());
         if time >= last.time {
@@ -308,8 +308,8 @@ impl History {
         self.looked_up.at(oldest, time)
     }
 
-    /// The last node at or before T = `time` and the T from there to the next, in r_s/c. Before the nodes from the start on, and after them,
-    /// the ship coasts: there the nearest of them, and no next.
+    /// The last node at or before T = `time` and the T from there to the next, in r_s/c. Before the nodes from the start on, and after
+    /// them, the ship coasts: there the nearest of them, and no next.
     pub fn node_at(&self, time: f64) -> (f64, f64) {
         match self.nodes.partition_point(|node| node.time <= time) {
             0 => (self.nodes[0].time, f64::INFINITY),

@@ -161,12 +161,12 @@ fn defaults(config: &GameConfig) -> Defaults {
     }
 }
 
-/// Distances of the farthest vertices of the [`SHIP_MODELS`] from their centres, in lengths of the ship. Flights do not depend on what other
-/// file a player puts in their place.
+/// Distances of the farthest vertices of the [`SHIP_MODELS`] from their centres, in lengths of the ship. Flights do not depend on what
+/// other file a player puts in their place.
 pub const RADII: [f64; 2] = [0.580613374710083, 0.6264112591743469];
 
-/// Distance of the farthest vertex of a ship from its centre, in r_s; `sizes` are the lengths of hunters and of those who flee. A ship with a
-/// model of its own flies as the first of the game's.
+/// Distance of the farthest vertex of a ship from its centre, in r_s; `sizes` are the lengths of hunters and of those who flee. A ship with
+/// a model of its own flies as the first of the game's.
 pub fn reach_of(spec: &ShipSpec, sizes: [f64; 2]) -> f64 {
     let model = SHIP_MODELS.iter().position(|name| *name == model_of(spec)).unwrap_or(0);
     RADII[model] * sizes[usize::from(spec.ai == Ai::Flee)]

@@ -236,8 +236,8 @@ fn with_the_back_to_the_disk_stars_are_exposed_as_without_one() {
     assert!((away / alone - 1.0).abs() < 0.01);
 }
 
-/// A prop with a temperature, seen at g = 1.29 from nearer to the hole: a pixel is what the judge makes of Planck's law at gT, and as at rest
-/// what of the shift is switched off.
+/// A prop with a temperature, seen at g = 1.29 from nearer to the hole: a pixel is what the judge makes of Planck's law at gT, and as at
+/// rest what of the shift is switched off.
 #[test]
 fn a_hot_prop_glows_as_the_judge_says() {
     use lensrunner::judge::case::Case;

@@ -132,8 +132,8 @@ fn what_came_out_of_the_hole_inside_is_held_in_the_end_and_knows_it() {
     moves_within_bounds(&history);
 }
 
-/// A look beyond the known past gives what [`History::reach_back`] gives, in whatever order the looks come, for a fast ship too; and a clone
-/// and a longer known past agree with it.
+/// A look beyond the known past gives what [`History::reach_back`] gives, in whatever order the looks come, for a fast ship too; and a
+/// clone and a longer known past agree with it.
 #[test]
 fn looks_beyond_the_known_past_are_the_past() {
     let fast = ShipState::new(DVec3::new(10.0, 0.0, 0.0), DVec3::new(0.0, 1000.0, 0.0));

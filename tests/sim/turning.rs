@@ -1,5 +1,5 @@
-//! How ships turn: no vertex faster than a quarter of light against the centre, and no turn sooner than light crosses the ship; whoever flies,
-//! at whatever pace.
+//! How ships turn: no vertex faster than a quarter of light against the centre, and no turn sooner than light crosses the ship; whoever
+//! flies, at whatever pace.
 
 use bevy::app::FixedUpdate;
 use glam::DVec3;

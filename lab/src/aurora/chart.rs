@@ -93,8 +93,8 @@ const FACTORS: [Factor; 3] = [
 /// Differences are drawn no lower: those of rounding.
 const LEAST_DIFFERENCE: f64 = 1e-7;
 
-/// A row of panels for each view: time of the walk against electrons at the middle radius, error against it, the difference from the particle
-/// method with the same random numbers, and how many times as fast the exact walk is.
+/// A row of panels for each view: time of the walk against electrons at the middle radius, error against it, the difference from the
+/// particle method with the same random numbers, and how many times as fast the exact walk is.
 pub fn draw(sheet: &Sheet) -> Figure {
     let shown = Shown::new(sheet);
     let measured = distinct(sheet, "view");

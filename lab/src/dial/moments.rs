@@ -138,8 +138,8 @@ impl Bench {
         Ok(Shown { stage, moment, camera, finest: Settings { own_ship, engines, ..settings(&self.config) } })
     }
 
-    /// These settings beside others, whose picture is `finest`: mean FLIP, and milliseconds a frame of both, one after the other, so that what
-    /// else the machine does tells on both alike.
+    /// These settings beside others, whose picture is `finest`: mean FLIP, and milliseconds a frame of both, one after the other, so that
+    /// what else the machine does tells on both alike.
     pub fn beside(&mut self, shown: &mut Shown, finest: &Taken, others: &Settings, settings: &Settings) -> Result<[f64; 3], ChartError> {
         let taken = self.picture(shown, settings)?;
         Ok([self.error(finest, &taken), self.time(shown, settings)?, self.time(shown, others)?])

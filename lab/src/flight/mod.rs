@@ -1,5 +1,5 @@
-//! The chart `flight`: integrators of matter on five flights, error in energy, angular momentum and phase against cost, and the step at which
-//! each fails.
+//! The chart `flight`: integrators of matter on five flights, error in energy, angular momentum and phase against cost, and the step at
+//! which each fails.
 //!
 //! - [`cases`]: what is flown; [`methods`]: how.
 //! - [`truth`]: the reference, which shares no code with them.

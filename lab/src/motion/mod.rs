@@ -1,5 +1,5 @@
-//! How the motion of a near body is told to the graphics card: one smooth motion about its centre's emission time, or so many nodes of what was
-//! recorded. Error against the processor's time, while hands fly: `lensrunner-lab chart motion`.
+//! How the motion of a near body is told to the graphics card: one smooth motion about its centre's emission time, or so many nodes of what
+//! was recorded. Error against the processor's time, while hands fly: `lensrunner-lab chart motion`.
 
 pub mod smooth;
 

@@ -1,4 +1,5 @@
-//! What is known of a product as it lies in a folder: when, where and how it was made, and whether the code that it shows has changed since.
+//! What is known of a product as it lies in a folder: when, where and how it was made, and whether the code that it shows has changed
+//! since.
 //!
 //! The file `products.toml` of the folder says it of all that `lab/run all` made. A chart's own CSV says it of what was made by hand since,
 //! and of the rest git knows when it was committed.

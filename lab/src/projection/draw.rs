@@ -130,8 +130,8 @@ fn footer(sheet: &Sheet) -> Vec<String> {
     lines
 }
 
-/// What to use and why, from the numbers themselves: the verdict and what stands under it; None where the methods that they speak of did not
-/// take part.
+/// What to use and why, from the numbers themselves: the verdict and what stands under it; None where the methods that they speak of did
+/// not take part.
 fn verdict(entries: &[Entry]) -> Option<[String; 2]> {
     let named = |name: &str| entries.iter().find(|entry| entry.name == name);
     let (table, batch, paper) = (named(RECOMMENDED)?, named("table-batch")?, named("paper1-128")?);

@@ -1,5 +1,5 @@
-//! The game's methods of projection on a graphics adapter by themselves: many look-ups at once through the shipped shader functions, for the
-//! chart and for the tests of twins.
+//! The game's methods of projection on a graphics adapter by themselves: many look-ups at once through the shipped shader functions, for
+//! the chart and for the tests of twins.
 
 use std::collections::HashMap;
 use std::sync::Arc;

@@ -110,8 +110,8 @@ fn left_at_all(renderer: &mut Renderer, eye: DVec3, degrees: f64, size: f64, con
     left(renderer, camera, &PLACES.map(|place| (place, size)), config, &settings)
 }
 
-/// The gas takes as much from thin images of ships as from wide ones (balls of 0.05 to 1 r_s), of every order: an image of order n is behind
-/// n − 1 or n images of the disk.
+/// The gas takes as much from thin images of ships as from wide ones (balls of 0.05 to 1 r_s), of every order: an image of order n is
+/// behind n − 1 or n images of the disk.
 #[test]
 fn images_are_dimmed_by_what_of_the_disk_is_before_them() {
     let mut renderer = renderer(SIZE);

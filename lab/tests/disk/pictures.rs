@@ -19,8 +19,8 @@ use crate::render_support::{a_disk, camera, renderer, settings};
 #[test]
 fn the_picture_is_the_exact_one() {
     let plain = disk_with(|config| config.disk.turbulence = 0.0);
-    // From where, field of view, size, orders and samples of the exact one; dB at least. The last has 54.9 dB; gas with g off by a hundredth
-    // has 39.7, images of orders 2 and 3 half a pixel aside 40.9.
+    // From where, field of view, size, orders and samples of the exact one; dB at least. The last has 54.9 dB; gas with g off by a
+    // hundredth has 39.7, images of orders 2 and 3 half a pixel aside 40.9.
     for (disk, l, degrees, field_of_view, size, orders, samples, least) in [
         (a_disk(), 24.0, 80.0, 60f64, [256, 144], 3, 2, 37.5),
         (a_disk(), 24.0, 40.0, 60.0, [256, 144], 3, 2, 35.5),

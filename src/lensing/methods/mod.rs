@@ -159,8 +159,8 @@ pub fn named(name: &str) -> Option<Method> {
     METHODS.into_iter().find(|method| method.name == name)
 }
 
-/// The table of a scheme with so many nodes: the committed one, or one from its file beside that, baked and written there if need be, with a
-/// progress bar on stderr.
+/// The table of a scheme with so many nodes: the committed one, or one from its file beside that, baked and written there if need be, with
+/// a progress bar on stderr.
 pub fn filed(scheme: Scheme, nodes: usize) -> lensing::Table {
     if (scheme, nodes) == (Scheme::Residual, lensing::SMALL_NODES) {
         return lensing::default_table();

@@ -183,8 +183,8 @@ impl Board<'_> {
         self.taken.push(Rect::from_center_size(at, Size::splat(2.0 * half)));
     }
 
-    /// Where the marker of what is at `at` is painted, with a line to it where that is elsewhere: under a panel or on another marker it would
-    /// not be seen.
+    /// Where the marker of what is at `at` is painted, with a line to it where that is elsewhere: under a panel or on another marker it
+    /// would not be seen.
     fn marks(&mut self, at: Pos2, half: f32, colour: Color32) -> Pos2 {
         let wanted = Rect::from_center_size(at, Size::splat(2.0 * half));
         let place = settle(wanted, self.free(), &self.marked);

@@ -9,8 +9,8 @@ use crate::play::sound::volumes::Volumes;
 /// What is to be heard, and how loud.
 pub type Wanted = Arc<Mutex<(Heard, Volumes)>>;
 
-/// Whether there may be something to play on. On Linux the ALSA library writes complaints to standard error where there is no sound card, so
-/// it is not asked then: there must be a card that plays, or a sound server with the ALSA plugin that leads to it. `root` is / but in
+/// Whether there may be something to play on. On Linux the ALSA library writes complaints to standard error where there is no sound card,
+/// so it is not asked then: there must be a card that plays, or a sound server with the ALSA plugin that leads to it. `root` is / but in
 /// tests, `runtime` the folder of the user's sockets.
 fn may_play(root: &Path, runtime: Option<&Path>) -> bool {
     if !cfg!(target_os = "linux") {

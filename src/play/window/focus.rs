@@ -39,7 +39,8 @@ mod tests {
     use bevy::input::InputPlugin;
     use bevy::state::app::StatesPlugin;
 
-    /// What is asked for when a window in play loses its focus (or gains it) with a mouse button down, and whether the button is still down.
+    /// What is asked for when a window in play loses its focus (or gains it) with a mouse button down, and whether the button is still
+    /// down.
     fn asked(focused: bool, pauses: bool) -> (Vec<MenuAction>, bool) {
         let mut app = App::new();
         app.add_plugins((MinimalPlugins, StatesPlugin, InputPlugin, FocusPlugin));

@@ -360,8 +360,8 @@ impl Geometry {
         self.draw_all_thin(pass, &self.draws.thin);
     }
 
-    /// Takes the pipeline and the vertices of those of them whose light crosses the disk's plane so often, up to three times; false if there
-    /// are none. Which they are, [`ThinLists`](thin::ThinLists) knows.
+    /// Takes the pipeline and the vertices of those of them whose light crosses the disk's plane so often, up to three times; false if
+    /// there are none. Which they are, [`ThinLists`](thin::ThinLists) knows.
     pub fn begin_thin_across(&self, pass: &mut wgpu::RenderPass, crossings: u32) -> bool {
         self.draws.thin_across.get(crossings as usize).is_some_and(|pipeline| self.begin(pass, pipeline, &self.thin.buffer))
     }

@@ -9,7 +9,8 @@ use wgpu::naga::Module;
 use crate::lensing::methods::Method;
 use crate::render::gpu::library::{File, Library, Values, Worldlines, file};
 
-/// The libraries that passes have been composed from. One for each choice of worldlines and method, so that its modules are worked out once.
+/// The libraries that passes have been composed from. One for each choice of worldlines and method, so that its modules are worked out
+/// once.
 static LIBRARIES: LazyLock<Mutex<HashMap<(Worldlines, &str), Library>>> = LazyLock::new(Default::default);
 
 macro_rules! passes {

@@ -1,6 +1,6 @@
 //! How a moving body moves, turns and contracts while its light crosses it. Its centre goes a smooth way, to fourth order in time; its
-//! attitude, and where centre and momentum stray from that way, are read from its history at even times, the nodes. They go to the GPU with the
-//! instance; [`local_motion_at`] is the twin of the shader's functions.
+//! attitude, and where centre and momentum stray from that way, are read from its history at even times, the nodes. They go to the GPU with
+//! the instance; [`local_motion_at`] is the twin of the shader's functions.
 
 use glam::{DQuat, DVec3, Quat, Vec3, Vec4};
 

@@ -280,9 +280,9 @@ struct DrawnOut {
 }
 
 impl DrawnOut {
-    /// Of a body with this `reach` (r_s) and `velocity` (dx/dT, c). Light leaves a farther point earlier by the delay's gradient ∇Δ. Meanwhile
-    /// the body moves with velocity v, which adds v ∇Δ/(1 + v ∇Δ). Where there is no such light, as for straight light across the hole,
-    /// anything may be.
+    /// Of a body with this `reach` (r_s) and `velocity` (dx/dT, c). Light leaves a farther point earlier by the delay's gradient ∇Δ.
+    /// Meanwhile the body moves with velocity v, which adds v ∇Δ/(1 + v ∇Δ). Where there is no such light, as for straight light across the
+    /// hole, anything may be.
     fn of(camera: &Observer, sample: &Sample, reach: f64, order: Order, age: f64) -> DrawnOut {
         let branch = branch_of(camera, sample.position, age);
         let Some((path, gradient)) = light_path(camera, sample.position, order, branch) else {

@@ -20,8 +20,8 @@ pub struct QualityOption {
 /// The step of each option, in the order of [`QualityOption::ALL`].
 pub type OptionSteps = [u8; QualityOption::ALL.len()];
 
-/// Standard deviation of the narrowest spots of stars, in drawn pixels: as they move their light, sampled at pixel centres, changes by up to
-/// 4 % (twice its transform at the sampling frequency, e^{−2π²·0.45²}).
+/// Standard deviation of the narrowest spots of stars, in drawn pixels: as they move their light, sampled at pixel centres, changes by up
+/// to 4 % (twice its transform at the sampling frequency, e^{−2π²·0.45²}).
 const LEAST_SIGMA: f32 = 0.45;
 
 impl QualityOption {
@@ -152,7 +152,7 @@ mod tests {
         }
     }
 
-    /// A option never draws more than is configured.
+    /// An option never draws more than is configured.
     #[test]
     fn what_is_configured_coarser_stays_so() {
         let coarse = Settings { smooth: false, orders: 1, faintest_star: 1.0, ..Settings::finest() };

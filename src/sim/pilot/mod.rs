@@ -1,8 +1,8 @@
 //! [`EnemyAiPlugin`]: the pilots. One code flies all ships; who flees has the sign of the distance turned.
 //!
 //! Far away, sampling model-predictive control ([`mod@plan`]); where a meeting can be flown, zero-effort-miss shooting
-//! ([`mod@rendezvous`]); bolts are aimed by shooting too ([`mod@aim`]). The hole is avoided in all. A pilot knows the other ship as it was a
-//! reaction delay ago, or by its light, and expects it to go on as it did. Difficulty is thrust, fuel, replanning period, horizon and
+//! ([`mod@rendezvous`]); bolts are aimed by shooting too ([`mod@aim`]). The hole is avoided in all. A pilot knows the other ship as it was
+//! a reaction delay ago, or by its light, and expects it to go on as it did. Difficulty is thrust, fuel, replanning period, horizon and
 //! reaction delay, nothing else. [`beginner`] flies as somebody does who plays for the first time, and
 //! [`jerky`] as hands do that throw the ship about.
 

@@ -79,8 +79,8 @@ fn nearest(middle: DVec3, corners: [DVec3; 3]) -> f64 {
     points.map(|point| point.angle_between(middle)).fold(f64::INFINITY, f64::min)
 }
 
-/// Caps that triangles must keep out of or within, against f64: wide triangles, slivers that point to the middle, and triangles that are a point or
-/// a line but for rounding, of which a driver that fuses products makes what it likes.
+/// Caps that triangles must keep out of or within, against f64: wide triangles, slivers that point to the middle, and triangles that are a
+/// point or a line but for rounding, of which a driver that fuses products makes what it likes.
 #[test]
 fn triangles_without_area_are_told_from_those_that_leave_a_cap() {
     let mut rng = StdRng::seed_from_u64(5);

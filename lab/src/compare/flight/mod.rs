@@ -1,4 +1,5 @@
-//! Chases flown by the autopilot, judged at many moments: those at which another ship is seen behind the hole among them; or by seeded hands.
+//! Chases flown by the autopilot, judged at many moments: those at which another ship is seen behind the hole among them; or by seeded
+//! hands.
 //!
 //! - [`moments`]: which moments are looked at.
 //! - [`hands`], [`eye`]: flights by hands, and from where they are looked at.

@@ -12,8 +12,8 @@ pub const VIEW: SceneView = SceneView::new([0.3, -1.6, 0.4], [0.0; 3]);
 /// What a file must be.
 const FORMAT: &str = "binary_little_endian 1.0, vertices of float x, y, z and faces of uchar int vertex_indices";
 
-/// Reads a binary little-endian PLY of triangles and fits it into a cube of edge 1 around the origin, axes kept. An error says what is wrong
-/// with which file.
+/// Reads a binary little-endian PLY of triangles and fits it into a cube of edge 1 around the origin, axes kept. An error says what is
+/// wrong with which file.
 pub fn read(path: &Path) -> Result<Vec<Triangle>, String> {
     let named = |what: String| format!("{}: {what}", path.display());
     let bytes = std::fs::read(path).map_err(|error| named(error.to_string()))?;

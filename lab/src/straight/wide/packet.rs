@@ -68,8 +68,8 @@ impl Default for Packets {
 
 impl Wide {
     /// The nearest triangle that each ray meets; the same bits as [`Wide::closest_each`]. The rays are taken in the order given, so that
-    /// neighbours in the list should be neighbours in space ([`crate::straight::order::tiles`] arranges a picture): any set gives the right answer, a
-    /// good order a fast one.
+    /// neighbours in the list should be neighbours in space ([`crate::straight::order::tiles`] arranges a picture): any set gives the right
+    /// answer, a good order a fast one.
     ///
     /// # Panics
     /// When the lengths differ.
