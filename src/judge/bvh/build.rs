@@ -5,7 +5,7 @@
 //! ```
 //! use lensrunner::judge::bvh::{Bounds, Settings, build};
 //! let boxes: Vec<Bounds<f64>> = (0..100).map(|i| i as f64).map(|x| Bounds { min: [x, 0.0, 0.0], max: [x + 0.5, 1.0, 1.0] }).collect();
-//! let tree = build(&boxes, &Settings::default());
+//! let tree = build(&boxes, &BvhSettings::default());
 //! // Everything that a point might lie in:
 //! let mut found: Vec<u32> = Vec::new();
 //! let mut stack = vec![0];
