@@ -3,7 +3,7 @@
 //! It sees boxes only, so it serves triangles, arcs of the disk and swept boxes alike.
 //!
 //! ```
-//! use lensrunner::judge::bvh::{Bounds, Settings, build};
+//! use lensrunner::judge::bvh::{Bounds, BvhSettings, build};
 //! let boxes: Vec<Bounds<f64>> = (0..100).map(|i| i as f64).map(|x| Bounds { min: [x, 0.0, 0.0], max: [x + 0.5, 1.0, 1.0] }).collect();
 //! let tree = build(&boxes, &BvhSettings::default());
 //! // Everything that a point might lie in:
