@@ -20,11 +20,23 @@ struct Arguments {
 /// Before each pass of splitting: switches to the queue that was filled, and empties the other.
 @compute @workgroup_size(1)
 fn next_pieces() {
+    turn_queues();
+}
+
+/// Before the last, where fewer passes are made than splitting may need.
+@compute @workgroup_size(1)
+fn last_pieces() {
+    turn_queues();
+    counters.is_last = 1u;
+}
+
+fn turn_queues() {
     let filled = 1u - counters.turn;
     counters.turn = filled;
     let count = min(atomicLoad(&counters.pieces[filled]), frame.capacity.work);
     atomicStore(&counters.pieces[1u - filled], 0u);
     counters.split += count;
+    counters.passes += min(count, 1u);
     arguments.refine = vec4<u32>((count + 63u) / 64u, 1u, 1u, 0u);
 }
 

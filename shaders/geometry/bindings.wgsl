@@ -80,6 +80,13 @@ struct Counters {
     split: u32,
     /// Images of bodies that are drawn as if they moved more slowly, as the processor counted them.
     calmed: u32,
+    /// Passes of splitting that had anything to split.
+    passes: u32,
+    /// 1 in the last pass: what would be split is drawn as it is.
+    is_last: u32,
+    /// Images that are drawn by their coarsest model because finer ones have no room, and those that have none at all.
+    reduced: u32,
+    left_out: u32,
 }
 
 const NO_INSTANCE: u32 = 0xffffffffu;

@@ -265,7 +265,7 @@ fn hand_over(queue: u32) {
         var done = false;
         if kind == HANDED_PIECE {
             let slot = atomicAdd(&counters.pieces[queue], 1u);
-            if slot < frame.capacity.work && counters.split < MOST_SPLIT * frame.capacity.work {
+            if slot < frame.capacity.work && counters.split < MOST_SPLIT * frame.capacity.work && counters.is_last == 0u {
                 pieces[queue * frame.capacity.work + slot] = piece;
                 done = true;
             } else {

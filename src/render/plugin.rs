@@ -48,8 +48,6 @@ pub struct FrameToDraw(pub Option<FrameInput>);
 /// Main world: what an earlier frame, two or three before this one, took and counted.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct RenderStatistics {
-    /// Whether counters are wanted: they are brought back only then.
-    pub counting: bool,
     /// Duration of each pass on the GPU, in ms; empty where it has no timestamps.
     pub passes: Vec<(&'static str, f32)>,
     /// What the processor did to prepare and record the last frame, in ms.
@@ -184,7 +182,8 @@ fn exchange(mut main: ResMut<MainWorld>, mut loader: ResMut<RendererLoader>, mut
         state.0 = ready;
     }
     let (Some(mut statistics), Some(renderer)) = (main.get_resource_mut::<RenderStatistics>(), loader.renderer()) else { return };
-    renderer.set_counting(statistics.counting);
+    // Splitting follows what earlier frames needed.
+    renderer.set_counting(true);
     statistics.passes.clear();
     statistics.passes.extend_from_slice(renderer.timing().latest());
     statistics.work.clear();

@@ -100,6 +100,8 @@ impl Bench<'_> {
             mapped_at_creation: false,
         });
         let mut renderer = Renderer::new(&self.gpu, &self.surroundings, FORMAT, size);
+        // As in the window: splitting follows what earlier frames needed.
+        renderer.set_counting(true);
         let stage = Stage::new(&mut renderer, scene, self.config).watched();
         Stand { bench: self, renderer, stage, view, picture, shown }
     }

@@ -76,10 +76,9 @@ impl Plugin for OverlayPlugin {
 #[derive(Resource, Clone, Debug, Default)]
 struct Marks(Vec<Mark>);
 
-/// Keeps what the frame took, and has counters brought back while they are shown.
-fn note(player: Res<PlayerState>, real: Res<Time<Real>>, mut statistics: ResMut<RenderStatistics>, mut frames: ResMut<Frames>) {
+/// Keeps what the frame took.
+fn note(real: Res<Time<Real>>, statistics: Res<RenderStatistics>, mut frames: ResMut<Frames>) {
     frames.push(real.delta_secs_f64() * 1e3, &statistics.passes);
-    statistics.counting = player.overlay;
 }
 
 /// The flow of time.

@@ -52,7 +52,7 @@ impl ImageShift {
             return Some(ImageShift::even(1.0));
         }
         let aspect = view.aspect.filter(|_| view.settings.method.bends)?;
-        let mut began = departure(view, time, history, order)?;
+        let mut began = departure(view, time, history, order)?.time;
         let away = view.camera.position - history.at(began).position;
         let near = away.length() < NEAR * radius;
         if near && view.settings.light_delay {

@@ -32,7 +32,7 @@ const SEARCH: u32 = 5;
 /// Whether any part of the image of `order` of a ball may be on the screen at T = `time`. The ball has the radius `reach` (r_s) and moves
 /// with `history`. In doubt the answer is yes.
 pub fn may_be_seen(view: &InstanceView, time: f64, history: &History, order: Order, reach: f64) -> bool {
-    let Some((aspect, began)) = view.aspect.zip(departure(view, time, history, order)) else { return true };
+    let Some((aspect, began)) = view.aspect.zip(departure(view, time, history, order).map(|light| light.time)) else { return true };
     let camera = view.camera;
     let amid = (history.at(time).position - camera.position).length() < AMID * reach;
     let middle = history.at(began).position;

@@ -143,7 +143,8 @@ impl PolygonPass {
                 let instance = Instance { scale, order, object: order, ..unplaced };
                 // `Ring` of shaders/instances/ring.wgsl.
                 let ring = [inner, outer, rate as f32, azimuth as f32];
-                placed.push(Placed { model: part.range, instance, nodes: vec![[ring, [0.0; 4], [0.0; 4]]], calmed: false });
+                let (model, nodes) = (part.range, vec![[ring, [0.0; 4], [0.0; 4]]]);
+                placed.push(Placed { model, coarse: model, width: f64::INFINITY, instance, nodes, calmed: false });
                 turning.push(Turning { rate: (rate / TAU) as f32, azimuth: (azimuth / TAU) as f32 });
             }
         }

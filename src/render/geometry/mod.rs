@@ -26,6 +26,8 @@ use crate::render::models::Models;
 
 /// Passes of splitting: one for each depth, and one for those at the last depth.
 const REFINE_PASSES: u32 = 25;
+/// Passes of splitting beyond those that an earlier frame needed. Each halves edges: in a frame an image does not become four times as large.
+const MORE_PASSES: u32 = 2;
 
 /// The stages of geometry and the buffers between them.
 #[derive(Debug)]
@@ -36,6 +38,8 @@ pub struct Geometry {
     draws: Draws,
     /// Those of the prepared frame.
     lists: BodyLists,
+    /// Passes of splitting in the frame that is recorded.
+    refine_passes: u32,
     instances: TableTexture,
     chunks: [TableTexture; 3],
     seen: Growing,
@@ -155,6 +159,7 @@ impl Geometry {
             draw_layout,
             pipelines,
             lists: BodyLists::default(),
+            refine_passes: REFINE_PASSES,
             instances: TableTexture::new(device, "instances", true),
             chunks: ["vertex chunks", "edge chunks", "triangle chunks"].map(|label| TableTexture::new(device, label, true)),
             seen: Growing::new(device, "seen vertices", storage | BufferUsages::VERTEX),
@@ -312,10 +317,18 @@ impl Geometry {
         self.stage(pass, &self.pipelines.now().triangles, 2);
     }
 
+    /// Makes so many passes of splitting as an earlier frame needed and a few more: what would need more is then drawn coarser and counted,
+    /// and the next frame has them. None: as many as any frame needs.
+    pub fn follow(&mut self, counters: Option<&Counters>) {
+        self.refine_passes = counters.map_or(REFINE_PASSES, |earlier| (earlier.passes + MORE_PASSES).min(REFINE_PASSES));
+    }
+
     /// Stage 4: splitting.
     pub fn refine(&self, pass: &mut wgpu::ComputePass) {
-        for _ in 0..REFINE_PASSES {
-            self.single(pass, &self.pipelines.now().next_pieces);
+        for number in 1..=self.refine_passes {
+            let is_cut = number == self.refine_passes && number < REFINE_PASSES;
+            let pipelines = self.pipelines.now();
+            self.single(pass, if is_cut { &pipelines.last_pieces } else { &pipelines.next_pieces });
             self.indirect(pass, &self.pipelines.now().refine, types::ARGUMENTS_REFINE);
         }
         self.single(pass, &self.pipelines.now().finish);

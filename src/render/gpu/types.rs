@@ -273,6 +273,10 @@ pub struct Counters {
     pub outside: u32,
     pub split: u32,
     pub calmed: u32,
+    pub passes: u32,
+    pub is_last: u32,
+    pub reduced: u32,
+    pub left_out: u32,
 }
 
 impl Counters {
@@ -290,6 +294,12 @@ impl Counters {
         }
         if self.calmed > 0 {
             parts.push(format!("{} images show a body that turned or sprang faster than any can, slower", self.calmed));
+        }
+        if self.reduced > 0 {
+            parts.push(format!("{} small images are drawn by coarse models, for there is no room for finer ones", self.reduced));
+        }
+        if self.left_out > 0 {
+            parts.push(format!("{} small images are left out, for there is no room for their models", self.left_out));
         }
         if self.outside > 0 {
             parts.push(format!("{} triangles lay outside of where their object's image can be and are left out", self.outside));

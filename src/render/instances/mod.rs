@@ -8,19 +8,18 @@ pub mod visibility;
 
 use glam::{DMat3, DQuat, DVec3};
 
-pub use emission::departure;
+pub use emission::{Departure, departure};
 pub use view::InstanceView;
 
 use crate::lensing::lookup::OLD;
 use crate::render::gpu::types::Instance;
 use crate::render::gpu::types::placed::{MINUS, NARROW_RING, STATIC, THIN, TWO_SIDED};
 use crate::render::instances::local_motion::{ImageExtent, LocalMotion, MotionNode};
-use crate::render::instances::view::MARGIN;
+use crate::render::instances::view::{Extent, MARGIN};
 use crate::render::models::ModelRange;
 use crate::render::settings::Settings;
 pub use crate::scene::lighting::Illumination;
-use crate::sim::sight::{branch_of, light_path};
-use crate::sim::{History, Sample};
+use crate::sim::History;
 use crate::spacetime::Observer;
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::{Branch, Order};
@@ -42,10 +41,9 @@ pub enum ObjectMotion<'a> {
     Flying(&'a History),
 }
 
-/// Allowed error, in pixels, up to which an image that bent light may draw out shows the full model.
-const DRAWN_OUT_ERROR: f32 = 1.0;
-/// On the camera's side of the hole and farther from it than this, in r_s, light comes almost straight: it bends by less than a radian.
-const NEAR_FROM: f64 = 3.0;
+/// A stand-in for a thin image is chosen as for one of at least this size, in pixels: its light is that of its area, which is to be right
+/// to some hundredths.
+const THIN_SIZE: f64 = 8.0;
 
 /// A coarse model for small images.
 #[derive(Clone, Copy, Debug)]
@@ -78,18 +76,16 @@ pub struct DrawnObject<'a> {
 }
 
 impl DrawnObject<'_> {
-    /// What is drawn of it in an image `width` pixels wide: the first that may stand for it in one so narrow, or itself.
-    /// `is_near`: light comes from there almost straight.
-    fn model_for(&self, width: f64, is_near: bool, settings: &Settings) -> ModelRange {
-        if width < settings.coarse_below {
+    /// What is drawn of it in an image of this extent: the first that may stand for it in one so small, or itself.
+    fn model_for(&self, extent: &Extent, settings: &Settings) -> ModelRange {
+        if extent.width < settings.coarse_below {
             return self.coarse;
         }
         let allowed = f64::from(settings.pixel_error) / 0.5;
-        // The light of a thin image is summed triangle by triangle, with what each hides of the others: the judge sees another model. So it
-        // does where bent light draws an image out: there a model stands in only where more than this is allowed.
-        let may_differ = width >= settings.thin_below && (is_near || settings.pixel_error > DRAWN_OUT_ERROR);
-        let fits = |stand_in: &&StandIn| may_differ && width < allowed * stand_in.below;
-        self.stand_ins.iter().find(fits).map_or(self.model, |stand_in| stand_in.model)
+        let least = if extent.width < settings.thin_below { THIN_SIZE } else { 0.0 };
+        // Light may draw an image out along the ring.
+        let size = extent.width.max(extent.length).max(least);
+        self.stand_ins.iter().find(|stand_in| size < allowed * stand_in.below).map_or(self.model, |stand_in| stand_in.model)
     }
 }
 
@@ -98,6 +94,10 @@ impl DrawnObject<'_> {
 pub struct Placed {
     /// Its model.
     pub model: ModelRange,
+    /// The coarsest that stands in for it.
+    pub coarse: ModelRange,
+    /// Width of the image, in pixels.
+    pub width: f64,
     /// The instance as the shader reads it; the renderer fills in the places in its buffers.
     pub instance: Instance,
     /// Its motion while light crosses it; none for a static body.
@@ -115,13 +115,13 @@ pub fn instances_of(view: &InstanceView, time: f64, object: &DrawnObject, orders
     let camera = view.camera;
     let settings = view.settings;
     let image = |order: Order, branch: Branch| {
-        let (emission, position, age) = match object.motion {
+        let (seen, position, age) = match object.motion {
             // From inside the horizon higher orders show only what is outside of it.
             ObjectMotion::Static { position, .. } if order.number() > 1 && position.length() + object.reach < 1.0 => return None,
-            ObjectMotion::Static { position, .. } => (time, position, if branch == Branch::Minus { f64::from(OLD) } else { 0.0 }),
+            ObjectMotion::Static { position, .. } => (None, position, if branch == Branch::Minus { f64::from(OLD) } else { 0.0 }),
             ObjectMotion::Flying(history) => {
-                let emission = departure(view, time, history, order).filter(|&emission| history.exists_at(emission))?;
-                (emission, history.at(emission).position, time - emission)
+                let seen = departure(view, time, history, order).filter(|seen| history.exists_at(seen.time))?;
+                (Some(seen), seen.sample.position, time - seen.time)
             }
         };
         let extent = view.extent(position, object.reach, order, age);
@@ -132,9 +132,10 @@ pub fn instances_of(view: &InstanceView, time: f64, object: &DrawnObject, orders
         if width < settings.least_width && order.number() > 1 {
             return None;
         }
-        let (mut instance, local_motion, longer) = match object.motion {
-            ObjectMotion::Static { attitude, .. } => (static_instance(camera, position, attitude, object), None, 1.0),
-            ObjectMotion::Flying(history) => flying(view, history, [emission, time], order, width, object),
+        let (mut instance, local_motion, longer) = match (object.motion, &seen) {
+            (ObjectMotion::Static { attitude, .. }, _) => (static_instance(camera, position, attitude, object), None, 1.0),
+            (ObjectMotion::Flying(history), Some(seen)) => flying(view, history, seen, time, width, object),
+            (ObjectMotion::Flying(_), None) => return None,
         };
         (instance.order, instance.object) = (u32::from(order.number()), object.id);
         place_by_axis(&mut instance, camera, position, object.reach);
@@ -150,20 +151,19 @@ pub fn instances_of(view: &InstanceView, time: f64, object: &DrawnObject, orders
         if branch == Branch::Minus {
             instance.flags |= MINUS;
         }
-        // Near the hole, relative to the object's size, an image is stretched round the ring and shows more detail than its width tells.
-        let is_near = order.number() == 1 && position.length() > NEAR_FROM && position.dot(camera.position) > 0.0;
-        let mut model = if object.reach < 0.1 * position.length() { object.model_for(width, is_near, settings) } else { object.model };
+        // Near the hole, relative to the object's size, parts of an image are stretched more than the whole.
+        let mut model = if object.reach < 0.1 * position.length() { object.model_for(&extent, settings) } else { object.model };
         set_strictness(&mut instance, view, width, order);
         instance.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
         let (mut nodes, mut calmed) = local_motion.map_or((Vec::new(), false), |local_motion| (local_motion.nodes, local_motion.calmed));
         let has_numbers = instance.is_finite() && nodes.iter().flatten().flatten().all(|x| x.is_finite());
-        if let (ObjectMotion::Flying(history), false) = (object.motion, has_numbers) {
+        if let (Some(seen), false) = (&seen, has_numbers) {
             // Its stand-in, straight on.
             (model, calmed) = (object.coarse, true);
-            nodes = local_motion::at_rest(history.at(emission).attitude);
+            nodes = local_motion::at_rest(seen.sample.attitude);
             straight_on(&mut instance);
         }
-        Some(Placed { model, instance, nodes, calmed })
+        Some(Placed { model, coarse: object.coarse, width, instance, nodes, calmed })
     };
     let folded = match object.motion {
         ObjectMotion::Static { position, .. } => camera.radius() < 1.0 && position.length() - object.reach < 1.0 && settings.method.bends,
@@ -280,17 +280,17 @@ struct DrawnOut {
 }
 
 impl DrawnOut {
-    /// Of a body with this `reach` (r_s) and `velocity` (dx/dT, c). Light leaves a farther point earlier by the delay's gradient ∇Δ.
-    /// Meanwhile the body moves with velocity v, which adds v ∇Δ/(1 + v ∇Δ). Where there is no such light, as for straight light across the
-    /// hole, anything may be.
-    fn of(camera: &Observer, sample: &Sample, reach: f64, order: Order, age: f64) -> DrawnOut {
-        let branch = branch_of(camera, sample.position, age);
-        let Some((path, gradient)) = light_path(camera, sample.position, order, branch) else {
+    /// Of a body with this `reach` (r_s) that is seen by this light, `age` r_s/c old. Light leaves a farther point earlier by the delay's
+    /// gradient ∇Δ. Meanwhile the body moves with velocity v, which adds v ∇Δ/(1 + v ∇Δ). Where there is no such light, as for straight light
+    /// across the hole, anything may be.
+    fn of(seen: &Departure, reach: f64, age: f64) -> DrawnOut {
+        let Some((path, gradient)) = seen.path else {
             return DrawnOut { longer: f64::INFINITY, span: MOST_SPAN * reach, path: age };
         };
-        let late = (1.0 + sample.velocity.dot(gradient)).max(1e-6);
+        let velocity = seen.sample.velocity;
+        let late = (1.0 + velocity.dot(gradient)).max(1e-6);
         let span = (ACCELERATES * gradient.length() / late).clamp(1.0, MOST_SPAN) * reach;
-        DrawnOut { longer: 1.0 + ACCELERATES * sample.velocity.length() * gradient.length() / late, span, path }
+        DrawnOut { longer: 1.0 + ACCELERATES * velocity.length() * gradient.length() / late, span, path }
     }
 }
 
@@ -299,20 +299,20 @@ const ACCELERATES: f64 = 1.5;
 /// The longest time, over that which light takes for the reach, in which a body's motion is followed: next to the horizon it has no end.
 const MOST_SPAN: f64 = 8.0;
 
-/// The instance of a body whose light, seen at the second of these times, left at the first; its motion, and by what factor its points are
-/// drawn out. Its image of this order is `width` pixels wide.
+/// The instance of a body that is seen by this light at T = `time`; its motion, and by what factor its points are drawn out. Its image is
+/// `width` pixels wide.
 fn flying(
     view: &InstanceView,
     history: &History,
-    [emission, time]: [f64; 2],
-    order: Order,
+    seen: &Departure,
+    time: f64,
     width: f64,
     object: &DrawnObject,
 ) -> (Instance, Option<LocalMotion>, f64) {
     let camera = view.camera;
-    let sample = history.at(emission);
+    let (emission, sample) = (seen.time, &seen.sample);
     let turn = DMat3::from_quat(sample.attitude);
-    let out = DrawnOut::of(camera, &sample, object.reach, order, time - emission);
+    let out = DrawnOut::of(seen, object.reach, time - emission);
     let still = !view.settings.light_delay;
     let p = sample.momentum;
     let momentum = if view.settings.method.bends { sample.momentum } else { against_static(sample.position, sample.momentum) };

@@ -1,6 +1,6 @@
 //! Where a camera sees a position, and how wide the image of a ball there is.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DVec2, DVec3};
 
@@ -35,6 +35,8 @@ pub(in crate::render) struct Extent {
     pub(in crate::render) radius: f64,
     /// Largest width on the screen, in pixels: the extent in ψ, or the angular size if that is less.
     pub(in crate::render) width: f64,
+    /// How long it is across that, round the axis, in pixels.
+    pub(in crate::render) length: f64,
 }
 
 /// Factor by which an extent is enlarged. It is that of a ball at one time, from five of its points; the points between them and the motion
@@ -83,13 +85,13 @@ impl InstanceView<'_> {
         let n = self.camera.position / l;
         let phi = position.dot(n).clamp(-r, r) / r;
         let phi = phi.acos();
-        let anywhere = Extent { look: n, radius: std::f64::consts::PI, width: std::f64::consts::PI / self.pixel };
+        let anywhere = Extent { look: n, radius: PI, width: PI / self.pixel, length: 2.0 * PI / self.pixel };
         if reach >= r || position.distance(self.camera.position) <= reach {
             return anywhere;
         }
         let half = (reach / r).asin();
         let seen = |r: f64, phi: f64| {
-            let (sine, cosine) = phi.clamp(0.0, std::f64::consts::PI).sin_cos();
+            let (sine, cosine) = phi.clamp(0.0, PI).sin_cos();
             self.angle([r * cosine - l, r * sine, r * cosine], order, age)
         };
         let low_side = if l < 1.0 { (r - reach).max(l + 0.01 * (r - l)) } else { (r - reach).max(1.001) };
@@ -103,14 +105,19 @@ impl InstanceView<'_> {
         let across = position - n * position.dot(n);
         let distance = across.length();
         // Half its extent in azimuth round the axis: a ball that meets the axis is seen all round.
-        let round = if reach < distance { (reach / distance).asin() } else { std::f64::consts::PI };
+        let round = if reach < distance { (reach / distance).asin() } else { PI };
         let turn = if order.flips() { -1.0 } else { 1.0 };
         // On the axis any side will do: what is left of `across` there is rounding.
         let side = if distance > 1e-9 * r { across * (turn / distance) } else { n.any_orthonormal_vector() };
         let look = n * centre.cos() + side * centre.sin();
-        let width = (high - low).min(2.0 * reach / path.max(1e-9)) * self.enlargement(n, side, [low, high], round);
         let steepest = low.sin().max(high.sin()).max(if low < FRAC_PI_2 && high > FRAC_PI_2 { 1.0 } else { 0.0 });
-        Extent { look, radius: (high - centre).max(centre - low) + round * steepest, width }
+        let enlargement = self.enlargement(n, side, [low, high], round);
+        Extent {
+            look,
+            radius: (high - centre).max(centre - low) + round * steepest,
+            width: (high - low).min(2.0 * reach / path.max(1e-9)) * enlargement,
+            length: 2.0 * round * steepest * enlargement,
+        }
     }
 
     /// The largest number of pixels per radian of ψ on the screen, by aberration and by the projection onto the plane screen. For

@@ -5,12 +5,18 @@ use glam::Vec3;
 use crate::render::models::collapse::Collapse;
 use crate::scene::Model;
 
+/// How far stand-ins are from their model, the finest first, as shares of the diameter: for images half as wide twice as far. What moves it
+/// farther is no longer its shape.
+const ERRORS: [f64; 7] = [0.0025, 0.005, 0.01, 0.02, 0.04, 0.08, 0.15];
+/// Share of an error up to which edges are collapsed: a corner may come to lie a little farther than each of its steps cost.
+const SURELY: f64 = 0.9;
 /// A stand-in has at most this share of the triangles of the next finer.
-const SHARE: f64 = 0.5;
+const FEWER: f64 = 0.85;
 /// A model of fewer triangles needs no stand-in.
 const FEW: usize = 60;
-/// No stand-in is farther from its model than this share of the diameter: what moves it farther is no longer its shape.
-const FARTHEST: f64 = 0.15;
+/// A stand-in farther from its model than this share of the diameter is for images of some twenty-five pixels at most: there edges between faces
+/// of one material are shown by their shapes alone, and its vertices are a third.
+const SMOOTH: f64 = 0.015;
 
 /// A model that stands in for a finer one.
 #[derive(Clone, Debug)]
@@ -29,22 +35,21 @@ pub fn stand_ins(model: &Model) -> Vec<StandIn> {
     }
     let mut found: Vec<StandIn> = Vec::new();
     let mut collapse = Collapse::new(model);
-    loop {
-        let target = (SHARE * collapse.left() as f64) as usize;
-        let reached = target >= FEW / 2 && collapse.down_to(target);
+    for error in ERRORS {
+        collapse.within(SURELY * error * diameter);
         let moved = collapse.moved() / diameter;
-        if !reached || moved > FARTHEST {
-            found.reverse();
-            return found;
+        if moved > ERRORS[ERRORS.len() - 1] {
+            break;
         }
-        // Where the finer of two is no nearer the coarser serves.
-        while found.last().is_some_and(|finer| finer.moved >= moved) {
-            found.pop();
+        let finer = found.last().map_or(model, |finer| &finer.model);
+        if collapse.left() as f64 <= FEWER * finer.triangles.len() as f64 && collapse.left() > 0 {
+            let mut coarser = collapse.model(moved > SMOOTH);
+            keep_light(&mut coarser, model);
+            found.push(StandIn { model: coarser, moved: moved.max(f64::EPSILON) });
         }
-        let mut coarser = collapse.model();
-        keep_light(&mut coarser, model);
-        found.push(StandIn { model: coarser, moved: moved.max(f64::EPSILON) });
     }
+    found.reverse();
+    found
 }
 
 /// Most by which the light of a material is changed so that its smaller surface sends out as much.
@@ -88,8 +93,8 @@ mod tests {
         assert!(all.len() > 1 && all[0].model.triangles.len() < 600, "{} of {}", all.len(), all[0].model.triangles.len());
         for StandIn { model, moved } in &all {
             assert_eq!(model.fault(), None);
-            assert!((model.radius() / fine.radius() - 1.0).abs() < 1e-5, "corners stay on the sphere");
-            assert!(*moved > 0.0 && *moved <= FARTHEST, "{moved}");
+            assert!(f64::from(model.radius() / fine.radius() - 1.0).abs() < 2.0 * moved, "{moved}: corners stay by the sphere");
+            assert!(*moved > 0.0 && *moved <= 0.15, "{moved}");
         }
         let finer = |pair: &[StandIn]| pair[0].moved > pair[1].moved && pair[0].model.triangles.len() < pair[1].model.triangles.len();
         assert!(all.windows(2).all(finer));

@@ -1,10 +1,10 @@
 //! Edges collapsed one by one, the least error first (Ronfard & Rossignac 1996), each vertex into a neighbour, so that a closed surface
-//! stays closed.
+//! stays closed. The neighbour may move to where both stand best for their planes (Garland & Heckbert 1997).
 
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap, HashSet};
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 
 use crate::render::models::patches::{contrast, sizes};
 use crate::scene::{Model, Vertex};
@@ -15,6 +15,10 @@ const LEAST_TURN: f64 = 0.0;
 const SAME_NORMAL: f32 = 0.8;
 /// Share of its length added to the price of an edge, so that of edges in one plane the shortest goes first.
 const SHORT_FIRST: f64 = 1e-6;
+/// Weight of the distance from the middle of an edge against one from a plane, so that planes that leave a direction open have a best place.
+const MIDDLE: f64 = 1e-3;
+/// A new place is taken where it costs at most this share of the cheaper end.
+const CHEAPER: f64 = 0.8;
 
 /// A plane with the weight of distances from it: weighted distance = normal · p + offset.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +43,8 @@ struct Candidate {
     price: f64,
     from: u32,
     to: u32,
+    /// Where the neighbour moves to, if it does.
+    place: Option<DVec3>,
     /// How often the two had changed when the price was made.
     changes: [u32; 2],
 }
@@ -68,6 +74,8 @@ impl Ord for Candidate {
 pub struct Collapse<'a> {
     model: &'a Model,
     points: Vec<DVec3>,
+    /// Where they were in the model.
+    places: Vec<DVec3>,
     /// The points of each triangle, and the vertices of the model that say its normals and texture coordinates there. None: it is gone.
     triangles: Vec<Option<([u32; 3], [u32; 3])>>,
     left: usize,
@@ -125,6 +133,7 @@ impl<'a> Collapse<'a> {
         let count = points.len();
         let mut this = Collapse {
             model,
+            places: points.clone(),
             points,
             left: triangles.iter().flatten().count(),
             triangles,
@@ -240,47 +249,80 @@ impl<'a> Collapse<'a> {
     /// Queues what a point can do with its neighbours, and they with it.
     fn offer(&mut self, point: u32) {
         for other in self.neighbours(point) {
+            let mut cheapest = f64::INFINITY;
+            let changes = |from: u32, to: u32| [from, to].map(|point| self.changes[point as usize]);
             for (from, to) in [(point, other), (other, point)] {
                 let [p, q] = [from, to].map(|point| self.points[point as usize]);
                 if self.locked[from as usize] || !(p - q).is_finite() {
                     continue;
                 }
                 // The planes at `to` have had their say when it took them over.
-                let farthest = self.planes[from as usize].iter().map(|plane| plane.distance(q)).fold(0.0, f64::max);
-                let price = farthest + SHORT_FIRST * p.distance(q);
-                let changes = [from, to].map(|point| self.changes[point as usize]);
-                self.queue.push(Candidate { price, from, to, changes });
+                let price = self.farthest(from, q) + SHORT_FIRST * p.distance(q);
+                cheapest = cheapest.min(price);
+                self.queue.push(Candidate { price, from, to, place: None, changes: changes(from, to) });
+            }
+            let (from, to) = (point, other);
+            if let Some(place) = self.best_place(from, to) {
+                let length = self.points[from as usize].distance(self.points[to as usize]);
+                let price = self.farthest(from, place).max(self.farthest(to, place)) + SHORT_FIRST * length;
+                if price < CHEAPER * cheapest {
+                    self.queue.push(Candidate { price, from, to, place: Some(place), changes: changes(from, to) });
+                }
             }
         }
     }
 
-    /// Collapses until `triangles` are left. False if there is nothing more to collapse.
-    pub fn down_to(&mut self, triangles: usize) -> bool {
-        while self.left > triangles {
-            let Some(next) = self.queue.pop() else { return false };
-            let Candidate { price, from, to, changes } = next;
+    /// The distance of a place from the farthest of the planes that a point stands for.
+    fn farthest(&self, point: u32, place: DVec3) -> f64 {
+        self.planes[point as usize].iter().map(|plane| plane.distance(place)).fold(0.0, f64::max)
+    }
+
+    /// Where the squares of the distances from the planes of two points are least together; None where one of them must stay.
+    fn best_place(&self, from: u32, to: u32) -> Option<DVec3> {
+        let ends = [from, to].map(|point| point as usize);
+        if ends.iter().any(|&end| self.locked[end] || self.on_rim[end]) {
+            return None;
+        }
+        let middle = 0.5 * (self.points[ends[0]] + self.points[ends[1]]);
+        let weight = MIDDLE * (self.planes[ends[0]].len() + self.planes[ends[1]].len()) as f64;
+        let (mut squares, mut right) = (DMat3::from_diagonal(DVec3::splat(weight)), DVec3::ZERO);
+        for plane in ends.iter().flat_map(|&end| &self.planes[end]) {
+            let normal = plane.normal;
+            squares += DMat3::from_cols(normal * normal.x, normal * normal.y, normal * normal.z);
+            right -= normal * (plane.offset + normal.dot(middle));
+        }
+        let place = middle + squares.inverse() * right;
+        place.is_finite().then_some(place)
+    }
+
+    /// Collapses what costs at most `error`, in the model's unit.
+    pub fn within(&mut self, error: f64) {
+        while self.queue.peek().is_some_and(|next| next.price <= error)
+            && let Some(next) = self.queue.pop()
+        {
+            let Candidate { price, from, to, place, changes } = next;
             if changes != [from, to].map(|point| self.changes[point as usize]) {
                 continue;
             }
-            if !self.may(from, to) {
+            let place = place.unwrap_or(self.points[to as usize]);
+            if !self.may(from, to, place) {
                 // It may later, when what is beside it has changed.
                 self.refused[from as usize].push(next);
                 continue;
             }
             let loss = self.loss(from, to);
-            let dearer = loss.max(self.away(from, to));
+            let dearer = loss.max(self.away(from, to, place));
             if dearer > price {
                 self.queue.push(Candidate { price: dearer, ..next });
                 continue;
             }
             self.lost = self.lost.max(loss);
-            self.collapse(from, to);
+            self.collapse(from, to, place);
         }
-        true
     }
 
-    /// Whether the surface stays one that does not meet itself at more points than before, and does not fold.
-    fn may(&self, from: u32, to: u32) -> bool {
+    /// Whether the surface stays one that does not meet itself at more points than before, and does not fold, where both go to `place`.
+    fn may(&self, from: u32, to: u32, place: DVec3) -> bool {
         if self.on_rim[from as usize] && !self.rim.contains(&key(from, to)) {
             return false;
         }
@@ -290,28 +332,32 @@ impl<'a> Collapse<'a> {
         if shared == 0 || mine.iter().filter(|point| theirs.contains(point)).count() != shared {
             return false;
         }
-        self.at(from).filter(|(corners, _)| !has(to)(corners)).all(|(corners, _)| {
+        let folds = |corners: [u32; 3]| {
+            let normal = |points: [DVec3; 3]| (points[1] - points[0]).cross(points[2] - points[0]);
+            let before = normal(corners.map(|point| self.points[point as usize]));
+            let after = normal(corners.map(|point| if point == from || point == to { place } else { self.points[point as usize] }));
+            before.dot(after) <= LEAST_TURN * before.length() * after.length()
+        };
+        let stays = |corners: &[u32; 3], other: u32| !has(other)(corners);
+        self.at(from).filter(|(corners, _)| stays(corners, to)).all(|(corners, _)| {
             let moved = corners.map(|point| if point == from { to } else { point });
-            let normal = |corners: [u32; 3]| {
-                let [a, b, c] = corners.map(|point| self.points[point as usize]);
-                (b - a).cross(c - a)
-            };
-            let [before, after] = [corners, moved].map(normal);
-            let folds = before.dot(after) <= LEAST_TURN * before.length() * after.length();
-            !folds && !self.at(to).any(|(other, _)| moved.iter().all(|point| other.contains(point)))
-        })
+            !folds(corners) && !self.at(to).any(|(other, _)| moved.iter().all(|point| other.contains(point)))
+        }) && (place == self.points[to as usize]
+            || self.at(to).filter(|(corners, _)| stays(corners, from)).all(|(corners, _)| !folds(corners)))
     }
 
-    /// How far `from` would lie from the surface: a sharp tip can lie far from it and yet near the planes of its sides.
-    fn away(&self, from: u32, to: u32) -> f64 {
-        let moved = self.at(from).map(|(corners, _)| corners.map(|point| if point == from { to } else { point }));
-        let there = self.at(to).map(|(corners, _)| corners).filter(|corners| !corners.contains(&from));
-        let is_one = |corners: &[u32; 3]| corners.iter().filter(|&&point| point == to).count() == 1;
-        let triangles = moved.filter(is_one).chain(there).map(|corners| corners.map(|point| self.points[point as usize]));
-        triangles.map(|corners| distance_to(self.points[from as usize], corners)).reduce(f64::min).unwrap_or(0.0)
+    /// How far the two would lie from the surface: a sharp tip can lie far from it and yet near the planes of its sides.
+    fn away(&self, from: u32, to: u32, place: DVec3) -> f64 {
+        let ends = [from, to];
+        let is_one = |corners: &[u32; 3]| corners.iter().filter(|point| ends.contains(point)).count() == 1;
+        let moved = |point: u32| if ends.contains(&point) { place } else { self.points[point as usize] };
+        let around = || self.at(from).chain(self.at(to)).map(|(corners, _)| corners).filter(is_one).map(|corners| corners.map(moved));
+        let distance = |p: DVec3| around().map(|corners| distance_to(p, corners)).reduce(f64::min).unwrap_or(0.0);
+        ends.map(|point| self.points[point as usize]).into_iter().filter(|&p| p != place).map(distance).fold(0.0, f64::max)
     }
 
-    fn collapse(&mut self, from: u32, to: u32) {
+    fn collapse(&mut self, from: u32, to: u32, place: DVec3) {
+        self.points[to as usize] = place;
         let (gone, kept): (Vec<u32>, Vec<u32>) = std::mem::take(&mut self.around[from as usize])
             .into_iter()
             .filter(|&triangle| self.triangles[triangle as usize].is_some())
@@ -377,20 +423,30 @@ impl<'a> Collapse<'a> {
         there.filter(|vertex| nearness(vertex) > SAME_NORMAL).max_by(|a, b| nearness(a).total_cmp(&nearness(b)))
     }
 
-    /// The model as it is now.
-    pub fn model(&self) -> Model {
+    /// The model as it is now. `is_smooth`: triangles of one material share their vertices at a point, with the mean of their normals.
+    pub fn model(&self, is_smooth: bool) -> Model {
         let mut result = Model { materials: self.model.materials.clone(), ..Model::default() };
         let mut places: HashMap<(u32, u32), u32> = HashMap::new();
+        let mut normals: Vec<Vec3> = Vec::new();
         for ((corners, vertices), &material) in self.with_materials() {
             let merged = [0, 1, 2].map(|k| {
-                *places.entry((corners[k], vertices[k])).or_insert_with(|| {
+                let vertex = self.model.vertices[vertices[k] as usize];
+                let number = *places.entry((corners[k], if is_smooth { material } else { vertices[k] })).or_insert_with(|| {
                     let position = self.points[corners[k] as usize].as_vec3().to_array();
-                    result.vertices.push(Vertex { position, ..self.model.vertices[vertices[k] as usize] });
+                    result.vertices.push(Vertex { position, ..vertex });
+                    normals.push(Vec3::ZERO);
                     result.vertices.len() as u32 - 1
-                })
+                });
+                normals[number as usize] += Vec3::from(vertex.normal);
+                number
             });
             result.triangles.push(merged);
             result.triangle_materials.push(material);
+        }
+        if is_smooth {
+            for (vertex, normal) in result.vertices.iter_mut().zip(normals) {
+                vertex.normal = normal.try_normalize().map_or(vertex.normal, |normal| normal.to_array());
+            }
         }
         result
     }
@@ -408,7 +464,7 @@ impl<'a> Collapse<'a> {
             let triangles = self.at(now).map(|(corners, _)| corners.map(|corner| self.points[corner as usize]));
             triangles.map(|corners| distance_to(place, corners)).reduce(f64::min)
         };
-        went.iter().zip(&self.points).filter_map(distance).fold(self.lost, f64::max)
+        went.iter().zip(&self.places).filter_map(distance).fold(self.lost, f64::max)
     }
 }
 
@@ -452,7 +508,8 @@ mod tests {
     fn a_closed_surface_stays_closed() {
         let fine = shapes::icosphere(1280, Material::default());
         let mut collapse = Collapse::new(&fine);
-        assert!(collapse.down_to(100));
+        collapse.within(0.1);
+        assert!(collapse.left() < 200);
         let mut edges: HashMap<[u32; 2], i32> = HashMap::new();
         for (corners, _) in collapse.triangles.iter().flatten() {
             for k in 0..3 {

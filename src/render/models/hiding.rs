@@ -12,8 +12,10 @@ use crate::scene::model::Model;
 
 /// Directions, a bit for each.
 pub const DIRECTIONS: u32 = 32;
-/// Cells along each side of a depth map.
-const SIDE: usize = 256;
+/// The fewest and the most cells along each side of a depth map.
+const SIDES: [usize; 2] = [32, 256];
+/// Cells of a map for each triangle of the model, up to the largest map: the triangles that are seen are a few cells wide.
+const CELLS: f64 = 16.0;
 /// The most cells that the triangles of a model cover together; of one with more, the map is coarser. Half a million triangles that all
 /// cover the whole map would take minutes.
 const MOST_CELLS: f64 = 16_777_216.0;
@@ -66,7 +68,7 @@ pub fn seen_from(model: &Model) -> Vec<u32> {
 /// The last models, by their corners, with the result: the same models are uploaded again and again where many pictures are drawn.
 static KNOWN: Mutex<Vec<Known>> = Mutex::new(Vec::new());
 /// How many are kept.
-const MOST_KNOWN: usize = 12;
+const MOST_KNOWN: usize = 32;
 
 /// A model's corners, and for each triangle a bit for each direction.
 type Known = (Vec<[Vec3; 3]>, Vec<u32>);
@@ -118,7 +120,8 @@ fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3) -> Vec<bool> {
 
 /// Cells along each side of the depth map of triangles on a square so wide.
 fn side_of(triangles: &[[Vec3; 3]], width: f32) -> usize {
-    let mut side = SIDE;
+    let [fewest, most] = SIDES;
+    let mut side = ((CELLS * triangles.len() as f64).sqrt() as usize).clamp(fewest, most);
     while side > 1 && covered(triangles, side as f32 / width) > MOST_CELLS {
         side /= 2;
     }
@@ -215,13 +218,13 @@ mod tests {
     fn many_triangles_on_one_another_get_a_coarser_map() {
         let one = [Vec3::ZERO, Vec3::X, Vec3::Y];
         let side = |triangles: usize| side_of(&vec![one; triangles], 1.0);
-        assert_eq!([side(1), side(200), side(2_000), side(100_000)], [SIDE, SIDE, 64, 8]);
+        assert_eq!([side(1), side(200), side(2_000), side(100_000)], [32, 56, 89, 8]);
         assert!(covered(&vec![one; 100_000], side(100_000) as f32) <= MOST_CELLS);
         // None of them hides another.
         assert!(seen_in(&vec![one; 100_000], Vec3::Z).iter().all(|seen| *seen));
         let ball = shapes::icosphere(20_000, Material::default());
         let corners: Vec<[Vec3; 3]> =
             ball.triangles.iter().map(|triangle| triangle.map(|i| Vec3::from(ball.vertices[i as usize].position))).collect();
-        assert_eq!(side_of(&corners, 1.0), SIDE);
+        assert_eq!(side_of(&corners, 1.0), SIDES[1]);
     }
 }

@@ -12,6 +12,8 @@ use crate::render::renderer::{Before, Renderer};
 impl Renderer {
     /// Records all passes of a prepared frame.
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder, output: &wgpu::TextureView) {
+        let earlier = self.counting.then(|| self.latest_counters().0).flatten();
+        self.geometry.follow(earlier.as_ref());
         let Some(frame_group) = &self.frame_group else { return };
         let begin = Instant::now();
         self.timing.begin();

@@ -280,7 +280,8 @@ impl Renderer {
         Ok(first_of(&bytes))
     }
 
-    /// Brings counters back after each frame to come, for [`latest_counters`](Renderer::latest_counters), or no longer.
+    /// Brings counters back after each frame to come, for [`latest_counters`](Renderer::latest_counters) and for the number of passes of
+    /// splitting, which then follows what earlier frames needed; or no longer.
     pub fn set_counting(&mut self, counting: bool) {
         self.counting = counting;
     }

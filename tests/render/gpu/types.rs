@@ -96,7 +96,7 @@ fn structs_have_one_layout_in_both_languages() {
         (
             "geometry::bindings::Counters",
             fields!(Counters: vertices, indices, work, thin, pieces, turn, coarse, cut, caught, model_vertices, lost, outside, split,
-            calmed),
+            calmed, passes, is_last, reduced, left_out),
         ),
         ("gpu::types::Material", fields!(Material: base, alpha, emissive, roughness, metallic, layer, temperature, nozzle)),
         (

@@ -52,7 +52,7 @@ impl ChordInputs<'_, '_> {
         let axis = self.view.camera.position.normalize();
         let mut chords = LEAST;
         for &order in orders {
-            let Some(began) = departure(self.view, self.time, self.history, order) else { continue };
+            let Some(began) = departure(self.view, self.time, self.history, order).map(|light| light.time) else { continue };
             let all = segments.iter().flat_map(|segment| poles.iter().map(move |pole| (segment, *pole)));
             let mut sample: Vec<(f64, &Segment, f64)> = all
                 .map(|(segment, pole)| {

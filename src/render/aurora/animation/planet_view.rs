@@ -75,7 +75,7 @@ impl<'a> PlanetView<'a> {
     /// else.
     pub fn frequency_ratio(&self, order: Order) -> Option<f64> {
         let camera = self.view.camera;
-        let emitted = self.history.at(departure(self.view, self.time, self.history, order)?);
+        let emitted = departure(self.view, self.time, self.history, order)?.sample;
         if !self.view.settings.method.bends {
             let k = (camera.position - emitted.position).normalize();
             let frequency = |position, momentum| {
