@@ -126,8 +126,11 @@ impl ArcPass {
         self.threads = [grid, arcs * rows, arcs * rings];
         self.close = view.frame.near_orders;
         let device = &gpu.device;
-        let mut replaced = self.circles.write(gpu, &view.circles);
-        replaced |= self.cuts.write(gpu, &view.cuts);
+        let mut replaced = false;
+        if std::mem::take(&mut view.has_moved) {
+            replaced |= self.circles.write(gpu, &view.circles);
+            replaced |= self.cuts.write(gpu, &view.cuts);
+        }
         if std::mem::take(&mut view.is_new) {
             replaced |= self.rings.write(gpu, &view.rings);
             replaced |= self.bends.write(gpu, &view.bends);

@@ -1,8 +1,8 @@
 //! The accretion disk on the GPU: arcs by default, polygons and sprites for comparison.
 //!
-//! [`view`] computes in f64 what a frame needs: which circles, how they are seen, which generations of streaks. [`arcs`] runs the stages of
-//! `shaders/disk/` on it. [`polygons`] and [`sprites`] are the two other representations of Yamashita 2025. [`textures`] holds the pattern
-//! of the gas.
+//! [`view`] computes in f64 what a frame needs: which circles, how they are seen, which generations of streaks; it keeps circles while the
+//! camera hardly moves. [`arcs`] runs the stages of `shaders/disk/` on it. [`polygons`] and [`sprites`] are the two other representations of
+//! Yamashita 2025. [`textures`] holds the pattern of the gas.
 
 pub mod arcs;
 pub mod circles;
@@ -108,7 +108,8 @@ impl DiskPasses {
         }
     }
 
-    /// Works out what the frame needs, for a picture `width` pixels wide; the device is not touched. `slice` is that of the camera's radius.
+    /// Works out what the frame needs, for a picture `width` pixels wide, and touches nothing of the device; `slice` is that of the camera's
+    /// radius.
     pub fn plan(&mut self, input: &FrameInput, slice: &Slice, width: u32) {
         self.is_straight = !input.settings.method.bends;
         if self.is_of_arcs() {
