@@ -183,7 +183,8 @@ impl DiskView {
             };
             let moved = image.stand.map_or(f64::INFINITY, |made| made.moved(&stand, disk.gas.extent()));
             // One image a frame, if the other can wait.
-            if moved > self.kept[usize::from(order > 1)] * if is_new { 2.0 } else { 1.0 } {
+            let wait = if is_new { 2.0 } else { 1.0 };
+            if moved > wait * self.kept[usize::from(order > 1)] {
                 let look = Look::new(camera, slice, order, width, input.settings.beaming);
                 image.make(
                     disk,
