@@ -102,7 +102,7 @@ impl<'a> Measure<'a> {
     }
 
     /// Errors of a ring of `view`, over what is allowed, at all circles between its own two that there were to choose from, and how many
-    /// these are: what goes straight over a ring, and as a parabola, against the gas itself. Between neighbours one is made.
+    /// these are: what goes straight over a ring, and as a parabola, against the gas itself. Between neighbours three are made.
     fn errors(&self, view: &DiskView, ring: &Ring) -> ([f64; 4], usize) {
         let Measure { disk, look, offered, .. } = self;
         let (radial, camera, pixel) = (&disk.gas.radial, look.camera, look.pixel);
@@ -114,8 +114,9 @@ impl<'a> Measure<'a> {
         };
         let [from, to] = [ring.inner, ring.outer].map(index);
         let (a, b) = (&offered[from], &offered[to]);
-        let made = look.circle(&CircleGas::at(disk, 0.5 * (a.gas.radius + b.gas.radius)));
-        let between = if to == from + 1 { std::slice::from_ref(&made) } else { &offered[from + 1..to] };
+        let at = |share: f64| look.circle(&CircleGas::at(disk, a.gas.radius + share * (b.gas.radius - a.gas.radius)));
+        let made = [0.25, 0.5, 0.75].map(at);
+        let between = if to == from + 1 { &made[..] } else { &offered[from + 1..to] };
         let mut worst = [0.0f64; 4];
         for here in between {
             let r = here.gas.radius;
