@@ -124,12 +124,17 @@ impl ArcPass {
         view.frame.regions = ArcPass::lists();
         view.frame.regions_end = INDICES.iter().sum();
         self.threads = [grid, arcs * rows, arcs * rings];
-        self.close = view.close;
+        self.close = view.frame.near_orders;
         let device = &gpu.device;
-        let mut replaced = self.circles.write(gpu, &[&view.circles[..], &view.samples[..]].concat());
-        replaced |= self.cuts.write(gpu, &view.cuts);
-        replaced |= self.rings.write(gpu, &view.rings);
-        replaced |= self.bends.write(gpu, &view.bends);
+        let mut replaced = false;
+        if std::mem::take(&mut view.has_moved) {
+            replaced |= self.circles.write(gpu, &view.circles);
+            replaced |= self.cuts.write(gpu, &view.cuts);
+        }
+        if std::mem::take(&mut view.is_new) {
+            replaced |= self.rings.write(gpu, &view.rings);
+            replaced |= self.bends.write(gpu, &view.bends);
+        }
         replaced |= self.seen.reserve(device, u64::from(view.frame.vertex_room) * size_of::<DiskVertex>() as u64);
         replaced |= self.segment_buffer.reserve(device, types::SEGMENTS_BYTES * u64::from(arcs * rows));
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&DiskCounters::default()));

@@ -1,8 +1,8 @@
 //! The accretion disk on the GPU: arcs by default, polygons and sprites for comparison.
 //!
-//! [`view`] computes in f64 what a frame needs: which circles, how they are seen, which generations of streaks. [`arcs`] runs the stages of
-//! `shaders/disk/` on it. [`polygons`] and [`sprites`] are the two other representations of Yamashita 2025. [`textures`] holds the pattern
-//! of the gas.
+//! [`view`] computes in f64 what a frame needs: which circles, how they are seen, which generations of streaks; it keeps circles while the
+//! camera hardly moves. [`arcs`] runs the stages of `shaders/disk/` on it. [`polygons`] and [`sprites`] are the two other representations of
+//! Yamashita 2025. [`textures`] holds the pattern of the gas.
 
 pub mod arcs;
 pub mod circles;
@@ -18,6 +18,7 @@ use std::ops::RangeInclusive;
 
 use wgpu::{BufferUsages, ShaderStages};
 
+use crate::lensing::Slice;
 use crate::render::Gpu;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::layout::{Slot, bind, buffer, layout, storage};
@@ -27,7 +28,7 @@ use polygons::PolygonPass;
 use sprites::SpritePass;
 use textures::Textures;
 use types::DiskFrame;
-use view::DiskView;
+use view::{DiskView, drawn_orders};
 
 /// How the disk is drawn.
 #[derive(Debug)]
@@ -41,6 +42,7 @@ enum Representation {
 #[derive(Debug)]
 pub struct DiskPasses {
     disk: DrawnDisk,
+    view: DiskView,
     frame: wgpu::Buffer,
     gas_layout: wgpu::BindGroupLayout,
     gas_group: wgpu::BindGroup,
@@ -64,8 +66,9 @@ impl DiskPasses {
         let gas_group = bind(&gpu.device, "gas", &gas_layout, &resources);
         let arcs = ArcPass::new(gpu, frame_layout, &gas_layout);
         let representation = Representation::Arcs;
+        let (view, straight) = (DiskView::of(&disk), None);
         let mut passes =
-            DiskPasses { disk: disk.clone(), frame, gas_layout, gas_group, arcs, representation, straight: None, is_straight: false };
+            DiskPasses { disk: disk.clone(), view, frame, gas_layout, gas_group, arcs, representation, straight, is_straight: false };
         passes.set(gpu, frame_layout, disk);
         passes
     }
@@ -83,6 +86,7 @@ impl DiskPasses {
             _ => Representation::Arcs,
         };
         self.straight = None;
+        self.view = DiskView::of(&disk);
         self.disk = disk;
     }
 
@@ -104,9 +108,27 @@ impl DiskPasses {
         }
     }
 
-    /// Uploads what the frame needs; `view` is that of the disk in a picture `width` pixels wide.
-    pub fn prepare(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, input: &FrameInput, mut view: DiskView, width: u32) {
+    /// Works out what the frame needs, for a picture `width` pixels wide, and touches nothing of the device; `slice` is that of the camera's
+    /// radius.
+    pub fn plan(&mut self, input: &FrameInput, slice: &Slice, width: u32) {
         self.is_straight = !input.settings.method.bends;
+        if self.is_of_arcs() {
+            self.view.follow(&self.disk, input, slice, width);
+        } else {
+            self.view.look_on(&self.disk, input);
+            if self.is_laid_over() {
+                self.view.drawn = drawn_orders(&self.disk, input, slice, width);
+            }
+        }
+    }
+
+    /// Lets the next plan be made as if it were the first.
+    pub fn forget(&mut self) {
+        self.view.forget();
+    }
+
+    /// Uploads what is planned.
+    pub fn prepare(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, input: &FrameInput, width: u32) {
         if self.is_straight && self.straight.is_none() {
             let radial = storage(gpu, "radial", &self.disk.radial_table());
             let mut polygons = PolygonPass::new(gpu, frame_layout, &self.gas_layout, radial, &self.disk, false);
@@ -116,11 +138,11 @@ impl DiskPasses {
         }
         match &mut self.representation {
             _ if self.is_straight => self.straight.iter_mut().for_each(|polygons| polygons.prepare(gpu, input, width)),
-            Representation::Arcs => self.arcs.prepare(gpu, &mut view),
+            Representation::Arcs => self.arcs.prepare(gpu, &mut self.view),
             Representation::Polygons(polygons) => polygons.prepare(gpu, input, width),
-            Representation::Sprites(sprites) => sprites.prepare(&view),
+            Representation::Sprites(sprites) => sprites.prepare(self.view.drawn),
         }
-        gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&view.frame));
+        gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&self.view.frame));
     }
 
     /// Makes the bind groups of a prepared frame, where buffers are others than before.

@@ -11,7 +11,6 @@ use crate::scene::disk::sprites::Sprites;
 
 use crate::render::disk::drawn::DrawnDisk;
 use crate::render::disk::types::{SEEN_SPRITE_BYTES, Sprite, SpriteImage};
-use crate::render::disk::view::DiskView;
 
 /// Orders 1, 2 and 3 are drawn with one sprite in so many: images behind the first are many times narrower.
 const SHARES: [u32; 3] = [1, 4, 4];
@@ -79,9 +78,9 @@ impl SpritePass {
         }
     }
 
-    /// Draws the orders of `view`.
-    pub fn prepare(&mut self, view: &DiskView) {
-        self.drawn = [1, 2, 3].map(|order| view.rings.iter().any(|ring| ring.order == order));
+    /// Which of orders 1 to 3 to draw.
+    pub fn prepare(&mut self, drawn: [bool; 3]) {
+        self.drawn = drawn;
     }
 
     /// The images of these orders that are drawn, the farthest first.

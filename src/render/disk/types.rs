@@ -97,7 +97,7 @@ pub struct DiskVertex {
 }
 
 /// `Ring` of shaders/disk/arcs/bindings.wgsl.
-#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 #[allow(missing_docs, reason = "documented once, in shaders/disk/arcs/bindings.wgsl")]
 pub struct Ring {

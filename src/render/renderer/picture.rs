@@ -1,5 +1,6 @@
 //! A frame as a picture: drawn, and brought back.
 
+use crate::render::disk::DiskPasses;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::readback::{self, PictureError, ReadbackPicture};
 use crate::render::gpu::targets::target;
@@ -13,6 +14,8 @@ impl Renderer {
     pub fn picture(&mut self, input: &FrameInput, layers: bool) -> Result<ReadbackPicture, PictureError> {
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
         let (texture, view) = target(&self.gpu.device, "output", self.output.0, format);
+        // A picture does not depend on those before it.
+        self.disk.iter_mut().for_each(DiskPasses::forget);
         for _ in 0..2 {
             if !self.prepare(input) {
                 return Err(self.gpu.watch.complaint().map_or(PictureError::Nothing, PictureError::Device));

@@ -3,7 +3,6 @@
 use crate::lensing::Slice;
 
 use crate::lensing::methods::Method;
-use crate::render::disk::view::DiskView;
 use crate::render::geometry::lists::BodyLists;
 use crate::render::gpu::types;
 use crate::render::sky::table::{sky_table, straight_sky_table};
@@ -16,8 +15,6 @@ pub(super) struct FramePlan {
     pub size: [u32; 2],
     /// The uniform, but for what was on the screen before.
     pub uniform: types::Frame,
-    /// The disk, if the scene has one.
-    pub disk: Option<DiskView>,
     /// The objects.
     pub bodies: BodyLists,
     /// Clusters of stars that may be on the screen: first star, how many, order.

@@ -2,8 +2,6 @@
 
 use std::time::Instant;
 
-use crate::render::disk::DiskPasses;
-use crate::render::disk::view::DiskView;
 use crate::render::frame::{FrameInput, uniform};
 use crate::render::geometry::lists::BodyLists;
 use crate::render::gpu::layout::bind;
@@ -30,28 +28,29 @@ impl Renderer {
         let begin = Instant::now();
         self.slices.follow(&mut self.tables, camera.radius(), input.settings.method);
         let begin = self.timing.worked("slice of the table", begin);
-        let disk = self.disk.as_ref().filter(|_| self.has_disk).map(DiskPasses::disk);
-        let view = disk.zip(self.slices.slice.as_ref()).map(|(disk, slice)| DiskView::new(disk, input, slice, size[0]));
+        if let (Some(disk), Some(slice)) = (self.disk.as_mut().filter(|_| self.has_disk), &self.slices.slice) {
+            disk.plan(input, slice, size[0]);
+        }
         let begin = self.timing.worked("view of the disk", begin);
         let most = self.gpu.device.limits().max_storage_buffer_binding_size;
         let bodies = BodyLists::new(&input.placed, input.settings.vertex_budget, most);
         let mut uniform = uniform(input, size, bodies.capacity);
-        if let Some(disk) = disk {
-            uniform.exposure_key = disk.config.exposure_key as f32;
+        if let Some(disk) = self.disk() {
+            uniform.exposure_key = disk.disk().config.exposure_key as f32;
             uniform.disk_indices = [1; 4];
         }
         let begin = self.timing.worked("lists of bodies", begin);
         let edge = f64::from(uniform.shadow_edge);
         let stars = if input.settings.stars { self.clusters.listed(camera, &self.slices.sky, edge, size) } else { Vec::new() };
         self.timing.worked("lists of stars", begin);
-        self.plan = Some(FramePlan { size, uniform, disk: view, bodies, stars });
+        self.plan = Some(FramePlan { size, uniform, bodies, stars });
         true
     }
 
     /// Uploads the planned frame of this input, and gives buffers, textures and targets the sizes that it needs. Without a plan nothing is
     /// done.
     pub fn prepare_resources(&mut self, input: &FrameInput) {
-        let Some(FramePlan { size, mut uniform, disk: view, bodies, stars }) = self.plan.take() else { return };
+        let Some(FramePlan { size, mut uniform, bodies, stars }) = self.plan.take() else { return };
         self.make_targets(size);
         let begin = Instant::now();
         if std::mem::take(&mut self.slices.are_new) {
@@ -68,8 +67,8 @@ impl Renderer {
             self.sky_slice.write(&self.gpu, &self.slices.sky);
         }
         let begin = self.timing.worked("slice of the table", begin);
-        if let (Some(disk), Some(view)) = (&mut self.disk, view) {
-            disk.prepare(&self.gpu, &self.frame_layout, input, view, size[0]);
+        if let Some(disk) = self.disk.as_mut().filter(|_| self.has_disk) {
+            disk.prepare(&self.gpu, &self.frame_layout, input, size[0]);
         }
         let begin = self.timing.worked("view of the disk", begin);
         let ground = input.aurora.as_ref().and_then(|aurora| aurora.ground.as_ref());
