@@ -366,6 +366,25 @@ struct Star {
     unused_b: f32,
 }
 
+/// Orders in which stars are projected: the third is within a ten-thousandth of the shadow's edge and carries as little of the light.
+const STAR_ORDERS: u32 = 2u;
+/// Clusters of stars per workgroup of the projection.
+const STAR_CLUSTERS: u32 = 8u;
+
+/// Stars that are near each other on the sky, the brightest first.
+struct StarCluster {
+    /// Unit direction of their middle, rain axes.
+    middle: vec3<f32>,
+    /// Angle of the farthest of them from it, in rad,
+    spread: f32,
+    /// and its sine.
+    sine: f32,
+    /// Number of the first, and how many they are: whole numbers.
+    first: f32,
+    count: f32,
+    unused: f32,
+}
+
 struct SeenStar {
     /// Centre in NDC.
     place: vec2<f32>,

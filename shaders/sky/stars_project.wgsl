@@ -4,15 +4,16 @@
 
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::colour::{blackbody_rgb, luminance}
-#import lensrunner::gpu::types::{FLAG_BEAMING, FLAG_DOPPLER, SeenStar, Star}
+#import lensrunner::gpu::types::{FLAG_BEAMING, FLAG_DOPPLER, SeenStar, STAR_CLUSTERS, STAR_ORDERS, Star}
+#import lensrunner::sky::star_clusters::star_cluster
 #import lensrunner::sky::table::{camera_doppler, PI, sky_ratio, sky_seen}
 
-@group(1) @binding(0) var<storage, read> stars: array<Star>;
-@group(1) @binding(1) var<storage, read_write> seen_stars: array<SeenStar>;
-@group(1) @binding(2) var<storage, read_write> star_draw: StarDraw;
-
-/// Clusters of stars that may be on the screen: first star, how many, image order.
-@group(1) @binding(3) var<storage, read> star_clusters: array<vec4<u32>>;
+/// Clusters that may be on the screen, and how many, as stars_cull.wgsl leaves them.
+@group(1) @binding(1) var<storage, read> listed_clusters: array<u32>;
+@group(1) @binding(2) var<storage, read> star_groups: StarGroups;
+@group(1) @binding(3) var<storage, read> stars: array<Star>;
+@group(1) @binding(4) var<storage, read_write> seen_stars: array<SeenStar>;
+@group(1) @binding(5) var<storage, read_write> star_draw: StarDraw;
 
 struct StarDraw {
     vertices: atomic<u32>,
@@ -21,12 +22,19 @@ struct StarDraw {
     first_instance: u32,
 }
 
+struct StarGroups {
+    groups_x: u32,
+    groups_y: u32,
+    groups_z: u32,
+    clusters: u32,
+}
+
 /// Least sine of the angle from the axis: a star's disc is finite, so its ring is never infinitely bright. 1e-6 rad is a giant at 10 pc;
 /// it holds the magnification of a ring below about a million.
 const STAR_DISC: f32 = 1e-6;
 
 /// Threads of a cluster.
-const LANES: u32 = 8u;
+const LANES: u32 = 64u / STAR_CLUSTERS;
 /// A star that is this much too faint ends its cluster, where magnification changes by less: at more than NEAR_AXIS from the axis.
 const SURE: f32 = 8.0;
 /// Sine of the angle from the axis.
@@ -38,8 +46,12 @@ const LEAST: f32 = 1e-2;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let cluster = star_clusters[id.x / LANES];
-    let order = cluster.z;
+    let place = id.x / LANES;
+    let listed = listed_clusters[place];
+    let cluster = star_cluster(listed / STAR_ORDERS);
+    let order = 1u + listed % STAR_ORDERS;
+    // The last workgroup has more room than clusters.
+    let count = select(0u, u32(cluster.count), place < star_groups.clusters);
     let n = frame.outward;
     let flags = frame.flags;
     let exposure = frame.last_exposure;
@@ -50,8 +62,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // Two pixels of margin for the spot.
     let margin = 1.0 + 4.0 / frame.size;
     // A loop that ends is all that software drivers skip work by: a branch is run through by all.
-    for (var i = id.x % LANES; i < cluster.y; i += LANES) {
-        let star = stars[cluster.x + i];
+    for (var i = id.x % LANES; i < count; i += LANES) {
+        let star = stars[u32(cluster.first) + i];
         if star.flux < frame.faintest_star {
             break;
         }

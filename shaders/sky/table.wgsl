@@ -1,6 +1,6 @@
 #define_import_path lensrunner::sky::table
 
-// Light from infinity. Everything depends on one angle, so the table has one dimension and is made anew, in f64, for each frame's camera:
+// Light from infinity. Everything depends on one angle, so the table for the camera's radius has one dimension (render/sky/table.rs):
 // Φ∞ is the angle that the ray seen at ψ sweeps on its way to infinity. It grows without bound at the edge of the shadow, as −ln of the
 // gap; so with ψ = ψ_shadow (1 − e^{−s}) both Φ(s) and s(Φ) are smooth. Nodes hold value and slope; between them the cubic of Hermite.
 //

@@ -1,5 +1,6 @@
 //! The tables that the shaders of methods of projection look up.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -31,10 +32,10 @@ impl Tables {
     }
 
     /// What the shader's `lens_texel` reads for a camera at the radius `l`, r_s; `slice` is that of the small table there.
-    pub fn texels(&mut self, method: Method, l: f64, slice: &Slice) -> Vec<[f32; 4]> {
+    pub fn texels<'a>(&mut self, method: Method, l: f64, slice: &'a Slice) -> Cow<'a, [[f32; 4]]> {
         match method.table {
-            None | Some((Scheme::Residual, _)) => slice.texels().to_vec(),
-            Some(kind) => paper::slice(self.others.entry(kind).or_insert_with(|| Arc::new(filed(kind))), l),
+            None | Some((Scheme::Residual, _)) => slice.texels().into(),
+            Some(kind) => paper::slice(self.others.entry(kind).or_insert_with(|| Arc::new(filed(kind))), l).into(),
         }
     }
 }

@@ -48,7 +48,7 @@ impl Observer {
 
     /// Where the camera sees light that comes, in rain axes, from `look`: a unit vector in camera axes.
     pub fn seen_direction(&self, look: DVec3) -> DVec3 {
-        // The boost of (look, −1), without its matrix: thousands of clusters of stars ask for this in every frame.
+        // The boost of (look, −1), without its matrix: images of bodies ask for this thousands of times in a frame.
         let boosted = frames::rest_to_rain(self.momentum, look.normalize()) + self.momentum;
         (self.attitude.conjugate() * boosted).normalize()
     }

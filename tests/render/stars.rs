@@ -1,11 +1,14 @@
-//! The way of the stars by itself: how a sky of stars is exposed.
+//! The way of the stars by themselves: which are drawn, and how a sky of them is exposed.
 
-use lensrunner::spacetime::Observer;
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+
+use lensrunner::spacetime::{Observer, light};
 
 use glam::{DQuat, DVec3};
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::gpu::readback::ReadbackPicture;
-use lensrunner::render::gpu::types::Star;
+use lensrunner::render::gpu::readback::{self, ReadbackPicture};
+use lensrunner::render::gpu::types::{STAR_ORDERS, Star};
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::settings::Settings;
 
@@ -25,6 +28,15 @@ fn star(direction: DVec3, flux: f32) -> Star {
     Star { direction: d.as_vec3().to_array(), flux, temperature: 5772.0, luminance: 0.0, unused: [0.0; 2] }
 }
 
+/// `count` directions in a spiral over the sphere.
+fn spiral(count: u32) -> impl Iterator<Item = DVec3> {
+    (0..count).map(move |k| {
+        let z = 1.0 - 2.0 * (f64::from(k) + 0.5) / f64::from(count);
+        let (sine, cosine) = (2.399_963 * f64::from(k)).sin_cos();
+        DVec3::new((1.0 - z * z).sqrt() * cosine, (1.0 - z * z).sqrt() * sine, z)
+    })
+}
+
 /// A camera 10⁵ r_s away that looks along −z, across the direction of the hole.
 fn far_camera(momentum: DVec3) -> Observer {
     Observer { position: DVec3::new(1e5, 0.0, 0.0), momentum, attitude: DQuat::IDENTITY, field_of_view: 60f64.to_radians() }
@@ -35,14 +47,7 @@ fn far_camera(momentum: DVec3) -> Observer {
 /// would be brighter in a finer picture, and the haze darker by a factor of 3.5.
 #[test]
 fn stars_are_metered_alike_in_pictures_of_any_size() {
-    let stars: Vec<Star> = (0..400)
-        .map(|k| {
-            // A spiral over the sphere.
-            let z = 1.0 - (f64::from(k) + 0.5) / 200.0;
-            let (sine, cosine) = (2.399_963 * f64::from(k)).sin_cos();
-            star(DVec3::new((1.0 - z * z).sqrt() * cosine, (1.0 - z * z).sqrt() * sine, z), 0.1)
-        })
-        .collect();
+    let stars: Vec<Star> = spiral(400).map(|direction| star(direction, 0.1)).collect();
     let settings = Settings { bloom: 0.0, exposure_range: [1e-9, 1e9], sky_brightness: 1.0, star_brightness: 1.0, ..Settings::finest() };
     let haze = |size: [u32; 2]| -> f64 {
         let picture = picture(&stars, 0.05, far_camera(DVec3::ZERO), size, settings);
@@ -55,4 +60,69 @@ fn stars_are_metered_alike_in_pictures_of_any_size() {
     };
     let [coarse, fine] = [haze([320, 180]), haze([1280, 720])];
     assert!((0.7..1.4).contains(&(fine / coarse)), "the haze is {coarse:.3} of white in a coarse picture and {fine:.3} in a fine one");
+}
+
+/// Every star that lands on the screen, by the exact solution, is drawn there, and no other; clusters of stars that are elsewhere are left
+/// out before their stars are projected.
+#[test]
+fn no_star_on_the_screen_is_left_out() {
+    const STARS: u32 = 20_000;
+    // All are bright enough in both orders.
+    let stars: Vec<Star> = spiral(STARS).map(|direction| star(direction, 1e15)).collect();
+    let size = [640, 360];
+    let surroundings = Surroundings { table: shared_table(), stars: stars.clone(), milky_way: vec![(1, 1, vec![0.0])] };
+    let mut renderer = renderer_under(&surroundings, size);
+    let (mut expected, mut kept) = (0, 0);
+    for (position, momentum, angle) in [
+        (DVec3::new(9.0, 2.0, 1.0), DVec3::ZERO, 0.3),
+        (DVec3::new(9.0, 2.0, 1.0), DVec3::new(-0.8, 0.9, 0.2), 2.6),
+        (DVec3::new(9.0, 2.0, 1.0), DVec3::new(-6.0, 9.0, 2.0), 1.7),
+        (DVec3::new(0.2, 1.05, 0.3), DVec3::new(1.5, 2.0, -1.0), 1.2),
+        (DVec3::new(0.5, 0.1, 0.3), DVec3::new(-0.4, 0.0, 0.7), 4.4),
+    ] {
+        let attitude = DQuat::from_rotation_y(angle) * DQuat::from_rotation_x(0.4);
+        let camera = Observer { position, momentum, attitude, field_of_view: 1.05 };
+        let settings = Settings { bloom: 0.0, star_brightness: 1.0, ..Settings::finest() };
+        renderer.picture(&FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: None, settings }, false).unwrap();
+        let [groups, seen, arguments] = renderer.stars().lists().map(|buffer| readback::buffer(renderer.gpu(), buffer).unwrap());
+        let words = |bytes: &[u8]| bytemuck::pod_collect_to_vec::<u8, u32>(bytes);
+        kept += words(&groups)[3];
+        let drawn = words(&arguments)[0] as usize / 3;
+        // The place is the first thing of a SeenStar, a row of eight numbers.
+        let rows = bytemuck::pod_collect_to_vec::<u8, [f32; 8]>(&seen[..32 * drawn]);
+        let pixel = |row: &[f32; 8]| [(0.5 + 0.5 * row[0]) * 640.0, (0.5 - 0.5 * row[1]) * 360.0];
+        let places: Vec<[f32; 2]> = rows.iter().map(pixel).filter(|[x, y]| (0.0..640.0).contains(x) && (0.0..360.0).contains(y)).collect();
+        let mut cells: HashMap<[i32; 2], Vec<[f32; 2]>> = HashMap::new();
+        places.iter().for_each(|place| cells.entry(place.map(|x| x as i32)).or_default().push(*place));
+
+        let (n, u) = (camera.axis_frame()[0], 1.0 / camera.radius());
+        let mut on_screen = 0;
+        for (order, d) in [1, 2].into_iter().flat_map(|order| stars.iter().map(move |star| (order, star.direction))) {
+            let d = DVec3::from_array(d.map(f64::from)).normalize();
+            let phi = d.angle_between(n);
+            let side = (d - n * d.dot(n)).normalize_or_zero();
+            let (swept, turn) = if order == 1 { (phi, 1.0) } else { (TAU - phi, -1.0) };
+            let Some(slope) = light::sky_slope(swept, u) else { continue };
+            let energy = (slope * slope + u * u - u * u * u).max(0.0).sqrt();
+            let psi = light::rain_angle(slope, energy, u);
+            let seen = camera.seen_direction(n * psi.cos() + side * (turn * psi.sin()));
+            let Some([x, y]) = camera.pixel(seen, size) else { continue };
+            if !((0.0..640.0).contains(&x) && (0.0..360.0).contains(&y)) {
+                continue;
+            }
+            on_screen += 1;
+            let near = |[a, b]: [f32; 2]| (f64::from(a) - x).hypot(f64::from(b) - y) < 0.25;
+            let about = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [x as i32 + i, y as i32 + j]));
+            let found = about.filter_map(|cell| cells.get(&cell)).flatten().any(|place| near(*place));
+            assert!(found, "a star at pixel {x}, {y} in order {order} was left out, camera at {position}");
+        }
+        println!("camera at {position}: {on_screen} stars on the screen, {} drawn there", places.len());
+        // Those at the edge of the screen are rounded to this side of it or to that.
+        assert!(places.len().abs_diff(on_screen) < 3, "{} stars are drawn, of {on_screen} on the screen", places.len());
+        expected += on_screen;
+    }
+    // The test saw something, and most of the 6 × 16 × 16 clusters are left out.
+    assert!(expected > 3000, "{expected}");
+    println!("{kept} clusters are kept");
+    assert!(kept < 5 * STAR_ORDERS * 1536 * 2 / 5, "{kept}");
 }

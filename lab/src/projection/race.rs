@@ -66,7 +66,7 @@ impl Race {
     /// What `method` reads for a camera at the radius `l`, r_s.
     pub fn texels(&mut self, method: Method, l: f64) -> Vec<[f32; 4]> {
         let slice = Slice::new(self.tables.small(), l);
-        self.tables.texels(method, l, &slice)
+        self.tables.texels(method, l, &slice).into_owned()
     }
 
     /// The rays of `rows` (along, across, height; the order, 4 more for light of any age) seen from the radius `l`: cos ψ, sin ψ, delay in

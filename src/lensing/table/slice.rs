@@ -27,6 +27,13 @@ impl Slice {
     /// end ([`grid::CAMERA_RANGE`]), and what is not finite counts as the far end. `camera.l` tells the radius used. Who must not have that
     /// asks first whether the range holds the radius, as the methods of `project` do, which answer nothing beyond.
     pub fn new(table: &Table, l: f64) -> Slice {
+        let mut slice = Slice { camera: camera(grid::CAMERA_RANGE[1]), size: [0; 2], texels: Vec::new() };
+        slice.move_to(table, l);
+        slice
+    }
+
+    /// Becomes [`Slice::new`] of this table and radius, in the memory that it has.
+    pub fn move_to(&mut self, table: &Table, l: f64) {
         debug_assert_eq!(table.scheme, Scheme::Residual);
         let [nx, ny, nz] = table.size.map(|n| n as usize);
         let l = if l.is_finite() { l.clamp(grid::CAMERA_RANGE[0], grid::CAMERA_RANGE[1]) } else { grid::CAMERA_RANGE[1] };
@@ -38,7 +45,7 @@ impl Slice {
             let sum = |h: usize| wa * a[h] + wb * b[h] + wc * c[h] + wd * d[h];
             [sum(0), sum(1), sum(2), 0.0]
         });
-        Slice::assembled(camera(l), [nx as u32, ny as u32], coefficients)
+        self.assemble(camera(l), [nx as u32, ny as u32], coefficients);
     }
 
     /// The exact slice at `l`, baked on the spot with the same layout: what the interpolation in L is judged by.
@@ -46,7 +53,9 @@ impl Slice {
         let [nx, ny, _] = bake::size(nodes);
         let layer = bake::layer(&double::camera(l), nx, ny, &spline::coefficients(nx), &spline::coefficients(ny));
         let coefficients = layer.into_iter().map(|v| [v[0] as f32, v[1] as f32, v[2] as f32, 0.0]);
-        Slice::assembled(camera(l), [nx as u32, ny as u32], coefficients)
+        let mut slice = Slice { camera: camera(l), size: [0; 2], texels: Vec::new() };
+        slice.assemble(camera(l), [nx as u32, ny as u32], coefficients);
+        slice
     }
 
     /// What the shader's `lens_texel` reads.
@@ -54,13 +63,15 @@ impl Slice {
         &self.texels
     }
 
-    fn assembled(cam: LensCamera, size: [u32; 2], coefficients: impl Iterator<Item = [f32; 4]>) -> Slice {
+    fn assemble(&mut self, cam: LensCamera, size: [u32; 2], coefficients: impl Iterator<Item = [f32; 4]>) {
         let header = [
             [cam.l, cam.lapse2, cam.a, cam.beta],
             [cam.fade, cam.bend, cam.rate, cam.even],
             [cam.soft, cam.start, cam.scale, cam.share],
             [size[0] as f32, size[1] as f32, cam.reach, cam.lift],
         ];
-        Slice { camera: cam, size, texels: header.into_iter().chain(coefficients).collect() }
+        (self.camera, self.size) = (cam, size);
+        self.texels.clear();
+        self.texels.extend(header.into_iter().chain(coefficients));
     }
 }

@@ -146,6 +146,7 @@ fn modules(worldlines: Worldlines, method: Method) -> Vec<(&'static str, File)> 
         own(file!("shading/shade.wgsl")),
         own(file!("sky/table.wgsl")),
         own(file!("sky/direction.wgsl")),
+        own(file!("sky/star_clusters.wgsl")),
         own(file!("aurora/stroke.wgsl")),
         own(file!("aurora/streaks.wgsl")),
         own(file!("aurora/levels/lit_tiles.wgsl")),

@@ -56,6 +56,8 @@ passes! {
     SkyCells: "sky/cells.wgsl",
     /// The sky behind everything.
     Background: "sky/background.wgsl",
+    /// Lists the clusters of stars that may be on the screen.
+    StarsCull: "sky/stars_cull.wgsl",
     /// Projects stars.
     StarsProject: "sky/stars_project.wgsl",
     /// Draws stars.

@@ -254,6 +254,22 @@ pub struct Star {
     pub unused: [f32; 2],
 }
 
+/// Orders in which stars are projected; `STAR_ORDERS` of WGSL.
+pub const STAR_ORDERS: u32 = 2;
+
+/// `StarCluster` in WGSL.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
+pub struct StarCluster {
+    pub middle: [f32; 3],
+    pub spread: f32,
+    pub sine: f32,
+    pub first: f32,
+    pub count: f32,
+    pub unused: f32,
+}
+
 /// `Counters` in WGSL: what the stages of geometry counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]

@@ -40,7 +40,6 @@ use crate::render::gpu::types::{self, Counters, Star};
 use crate::render::models::{ModelRange, ModelSet, Models};
 use crate::render::post_process::upscale::Upscale;
 use crate::render::post_process::{Finish, PostProcess};
-use crate::render::sky::clusters::StarClusters;
 use crate::render::sky::table::NODES;
 use crate::render::sky::{Background, Stars};
 use crate::render::tables::Tables;
@@ -95,7 +94,6 @@ pub struct Renderer {
     geometry: Geometry,
     thin: ThinLists,
     background: Background,
-    clusters: StarClusters,
     stars: Stars,
     aurora: Aurora,
     post_process: PostProcess,
@@ -147,13 +145,11 @@ impl Renderer {
         let targets = Targets::new(device, size.map(|side| side.max(1)));
         let upscale = Upscale::new(device, &frame_layout, format);
         post_process.resize(gpu, &targets, &adaptation);
-        let (clusters, stars) = StarClusters::of(&surroundings.stars);
         Renderer {
             geometry: Geometry::new(device, &frame_layout, Worldlines::Bodies),
             thin: ThinLists::new(device, &frame_layout),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
-            stars: Stars::new(gpu, &frame_layout, stars, &table),
-            clusters,
+            stars: Stars::new(gpu, &frame_layout, &surroundings.stars, &table),
             aurora: Aurora::new(gpu, &frame_layout),
             models: Models::new(device),
             timing: Timing::new(gpu),
@@ -310,6 +306,11 @@ impl Renderer {
     /// The aurora's passes, for tests that read their buffers.
     pub fn aurora(&self) -> &Aurora {
         &self.aurora
+    }
+
+    /// The stars' passes, for tests that read their buffers.
+    pub fn stars(&self) -> &Stars {
+        &self.stars
     }
 
     /// The geometry stages, for tests that read their buffers.

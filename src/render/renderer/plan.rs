@@ -1,12 +1,11 @@
 //! What the processor works out for a frame before the device is told of it: plain data.
 
-use crate::lensing::Slice;
+use crate::lensing::{Slice, Table};
 
 use crate::lensing::methods::Method;
 use crate::render::geometry::lists::BodyLists;
 use crate::render::gpu::types;
-use crate::render::sky::table::{sky_table, straight_sky_table};
-use crate::render::tables::Tables;
+use crate::render::sky::table::{SkyTables, straight_sky_table};
 
 /// A frame that is planned: what is to be uploaded for it.
 #[derive(Debug)]
@@ -17,8 +16,6 @@ pub(super) struct FramePlan {
     pub uniform: types::Frame,
     /// The objects.
     pub bodies: BodyLists,
-    /// Clusters of stars that may be on the screen: first star, how many, order.
-    pub stars: Vec<[u32; 4]>,
 }
 
 /// The tables at one radius of the camera, by one method; kept until these change.
@@ -28,27 +25,30 @@ pub(super) struct Slices {
     at: Option<(f64, Method)>,
     /// Of the residual table.
     pub slice: Option<Slice>,
-    /// What the shaders look light up in.
-    pub lens: Vec<[f32; 4]>,
     /// The table of the sky.
     pub sky: Vec<[f32; 4]>,
+    /// What it is interpolated from.
+    skies: SkyTables,
     /// Whether they are to be uploaded.
     pub are_new: bool,
 }
 
 impl Slices {
     /// Takes the slices for a camera at the radius `l` (r_s): one nearer than 0.05 or farther than 5,000 r_s sees the hole as from there.
-    pub fn follow(&mut self, tables: &mut Tables, l: f64, method: Method) {
+    pub fn follow(&mut self, table: &Table, l: f64, method: Method) {
         if self.at == Some((l, method)) {
             return;
         }
-        let slice = Slice::new(tables.small(), l);
-        *self = Slices {
-            at: Some((l, method)),
-            lens: tables.texels(method, l, &slice),
-            sky: if method.bends { sky_table(l) } else { straight_sky_table() },
-            slice: Some(slice),
-            are_new: true,
-        };
+        match &mut self.slice {
+            Some(slice) => slice.move_to(table, l),
+            None => self.slice = Some(Slice::new(table, l)),
+        }
+        if method.bends {
+            self.skies.at(l, &mut self.sky);
+        } else {
+            straight_sky_table(&mut self.sky);
+        }
+        self.at = Some((l, method));
+        self.are_new = true;
     }
 }

@@ -26,7 +26,7 @@ impl Renderer {
         let size = drawn_size(self.output.0, self.output.1);
         self.timing.begin_work();
         let begin = Instant::now();
-        self.slices.follow(&mut self.tables, camera.radius(), input.settings.method);
+        self.slices.follow(self.tables.small(), camera.radius(), input.settings.method);
         let begin = self.timing.worked("slice of the table", begin);
         if let (Some(disk), Some(slice)) = (self.disk.as_mut().filter(|_| self.has_disk), &self.slices.slice) {
             disk.plan(input, slice, size[0]);
@@ -39,21 +39,18 @@ impl Renderer {
             uniform.exposure_key = disk.disk().config.exposure_key as f32;
             uniform.disk_indices = [1; 4];
         }
-        let begin = self.timing.worked("lists of bodies", begin);
-        let edge = f64::from(uniform.shadow_edge);
-        let stars = if input.settings.stars { self.clusters.listed(camera, &self.slices.sky, edge, size) } else { Vec::new() };
-        self.timing.worked("lists of stars", begin);
-        self.plan = Some(FramePlan { size, uniform, bodies, stars });
+        self.timing.worked("lists of bodies", begin);
+        self.plan = Some(FramePlan { size, uniform, bodies });
         true
     }
 
     /// Uploads the planned frame of this input, and gives buffers, textures and targets the sizes that it needs. Without a plan nothing is
     /// done.
     pub fn prepare_resources(&mut self, input: &FrameInput) {
-        let Some(FramePlan { size, mut uniform, bodies, stars }) = self.plan.take() else { return };
+        let Some(FramePlan { size, mut uniform, bodies }) = self.plan.take() else { return };
         self.make_targets(size);
         let begin = Instant::now();
-        if std::mem::take(&mut self.slices.are_new) {
+        if let Some(slice) = self.slices.slice.as_ref().filter(|_| std::mem::take(&mut self.slices.are_new)) {
             // The slices depend on radius and method alone.
             let method = input.settings.method;
             self.geometry.set_method(method, input.camera.radius() < 1.0);
@@ -61,7 +58,7 @@ impl Renderer {
                 self.aurora.set_method(&self.gpu.device, &self.frame_layout, method);
                 self.method = method;
             }
-            if self.lens_slice.write(&self.gpu, &self.slices.lens) {
+            if self.lens_slice.write(&self.gpu, &self.tables.texels(method, input.camera.radius(), slice)) {
                 self.frame_group = None;
             }
             self.sky_slice.write(&self.gpu, &self.slices.sky);
@@ -85,7 +82,7 @@ impl Renderer {
         }
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
         let begin = self.timing.worked("lists of bodies", begin);
-        self.stars.prepare(&self.gpu, &stars);
+        self.stars.prepare(&self.gpu, input.settings.stars);
         let begin = self.timing.worked("lists of stars", begin);
         self.background.prepare(&self.gpu, size);
         self.aurora.prepare(&self.gpu, input.aurora.as_ref(), &self.targets);
@@ -113,7 +110,6 @@ impl Renderer {
         if self.geometry.has_thin() {
             self.thin.bind(device, [self.geometry.thin(), self.geometry.arguments()]);
         }
-        self.stars.bind(device);
         self.background.bind(device);
         self.aurora.bind(device);
         self.timing.worked("rest of the uploads", begin);

@@ -1,7 +1,7 @@
 //! The sky: the Milky Way behind everything, and the stars, both by the one-dimensional table of light from infinity.
 
 mod background;
-pub mod clusters;
+mod clusters;
 mod stars;
 pub mod table;
 

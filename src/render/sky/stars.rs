@@ -2,48 +2,62 @@
 
 use crate::render::Gpu;
 use crate::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST};
-use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster, storage};
+use crate::render::gpu::layout::{HDR_FORMAT, Raster, Slot, TableTexture, bind, buffer, compute, layout, module, raster, storage};
 use crate::render::gpu::shaders::Pass;
-use crate::render::gpu::types::Star;
+use crate::render::gpu::types::{STAR_ORDERS, Star};
 use crate::scene::blackbody;
 
-use crate::render::sky::clusters::{CLUSTERS, ORDERS};
+use crate::render::sky::clusters::clusters;
 
 /// Bytes of `SeenStar` in WGSL.
 const SEEN_STAR_BYTES: u64 = 32;
-/// The catalogue on the GPU and the two passes over it.
+
+/// The catalogue on the GPU and the passes over it.
 #[derive(Debug)]
 pub struct Stars {
-    /// Clusters that may be on the screen: first star, how many, order.
-    listed: Growing,
-    groups: u32,
-    project_layout: wgpu::BindGroupLayout,
-    catalogue: wgpu::Buffer,
-    seen: wgpu::Buffer,
+    clusters: u32,
+    cull: wgpu::ComputePipeline,
+    cull_group: wgpu::BindGroup,
+    /// Arguments of the dispatch over the clusters that are kept, and how many they are.
+    groups: wgpu::Buffer,
     project: wgpu::ComputePipeline,
-    /// None where it is to be made.
-    project_group: Option<wgpu::BindGroup>,
+    project_group: wgpu::BindGroup,
+    seen: wgpu::Buffer,
     draw: wgpu::RenderPipeline,
     draw_group: wgpu::BindGroup,
     arguments: wgpu::Buffer,
+    /// Whether any may be drawn in this frame.
+    shown: bool,
 }
 
 impl Stars {
     /// Uploads the catalogue, in the order of its clusters. `table` is [`blackbody_table`](crate::render::frame::blackbody_table).
-    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, mut stars: Vec<Star>, table: &[[f32; 4]]) -> Self {
+    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, stars: &[Star], table: &[[f32; 4]]) -> Self {
+        use wgpu::{BufferUsages, ShaderStages};
         let device = &gpu.device;
+        let (clusters, mut stars) = clusters(stars);
         for star in &mut stars {
             let rgb = blackbody::lookup(table, BLACKBODY_COLDEST, BLACKBODY_HOTTEST, star.temperature);
             star.luminance = blackbody::luminance(rgb.map(f64::from)) as f32;
         }
         let catalogue = storage(gpu, "stars", &stars);
-        let listed = Growing::new(device, "star clusters", wgpu::BufferUsages::STORAGE);
-        let seen =
-            buffer(device, "seen stars", SEEN_STAR_BYTES * (stars.len().max(1) as u64) * u64::from(ORDERS), wgpu::BufferUsages::STORAGE);
-        let arguments = buffer(device, "star draw", 16, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT);
-        let project_layout =
-            layout(device, "stars project", wgpu::ShaderStages::COMPUTE, &[Slot::Read, Slot::Write, Slot::Write, Slot::Read]);
-        let project = compute(device, "stars project", Pass::StarsProject, "main", &[Some(frame_layout), Some(&project_layout)]);
+        let mut cluster_table = TableTexture::new(device, "star clusters", false);
+        cluster_table.write(gpu, &clusters);
+        let listed = buffer(device, "listed clusters", 4 * clusters.len() as u64 * u64::from(STAR_ORDERS), BufferUsages::STORAGE);
+        let seen = buffer(device, "seen stars", SEEN_STAR_BYTES * stars.len() as u64 * u64::from(STAR_ORDERS), BufferUsages::STORAGE);
+        let [groups, arguments] =
+            ["star groups", "star draw"].map(|label| buffer(device, label, 16, BufferUsages::STORAGE | BufferUsages::INDIRECT));
+        let stage = |label, pass, slots: &[Slot], buffers: &[&wgpu::Buffer]| {
+            let layout = layout(device, label, ShaderStages::COMPUTE, slots);
+            let buffers = buffers.iter().map(|buffer| buffer.as_entire_binding());
+            let resources: Vec<_> = std::iter::once(cluster_table.binding()).chain(buffers).collect();
+            (compute(device, label, pass, "main", &[Some(frame_layout), Some(&layout)]), bind(device, label, &layout, &resources))
+        };
+        let slots = [Slot::Numbers, Slot::Write, Slot::Write];
+        let (cull, cull_group) = stage("stars cull", Pass::StarsCull, &slots, &[&listed, &groups]);
+        let slots = [Slot::Numbers, Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write];
+        let buffers = [&listed, &groups, &catalogue, &seen, &arguments];
+        let (project, project_group) = stage("stars project", Pass::StarsProject, &slots, &buffers);
         let draw_layout = layout(device, "stars draw", wgpu::ShaderStages::VERTEX, &[Slot::Read]);
         let draw_group = bind(device, "stars draw", &draw_layout, &[seen.as_entire_binding()]);
         let shader = module(device, "stars draw", Pass::StarsDraw);
@@ -61,33 +75,34 @@ impl Stars {
         };
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, Some(add))], depth: Some(false) };
         let draw = raster(device, "stars draw", &shader, stage, &[Some(frame_layout), Some(&draw_layout)]);
-        Stars { listed, groups: 0, project_layout, catalogue, seen, project, project_group: None, draw, draw_group, arguments }
+        let clusters = clusters.len() as u32;
+        Stars { clusters, cull, cull_group, groups, project, project_group, seen, draw, draw_group, arguments, shown: false }
     }
 
-    /// Uploads the clusters that may be on the screen, and empties the list of seen stars; before [`Stars::project`].
-    pub fn prepare(&mut self, gpu: &Gpu, listed: &[[u32; 4]]) {
-        self.groups = listed.len() as u32 / CLUSTERS;
-        if self.listed.write(gpu, listed) {
-            self.project_group = None;
-        }
+    /// Empties the lists, before [`Stars::project`]; `shown` is whether this frame has stars.
+    pub fn prepare(&mut self, gpu: &Gpu, shown: bool) {
+        self.shown = shown && self.clusters > 0;
+        gpu.queue.write_buffer(&self.groups, 0, bytemuck::cast_slice(&[0u32, 1, 1, 0]));
         gpu.queue.write_buffer(&self.arguments, 0, bytemuck::cast_slice(&[0u32, 1, 0, 0]));
     }
 
-    /// Makes the bind group of a prepared frame, where buffers are others than before.
-    pub fn bind(&mut self, device: &wgpu::Device) {
-        if self.project_group.is_none() {
-            let buffers = [&self.catalogue, &self.seen, &self.arguments, &self.listed.buffer];
-            let resources = buffers.map(|buffer| buffer.as_entire_binding());
-            self.project_group = Some(bind(device, "stars project", &self.project_layout, &resources));
+    /// Lists the clusters that may be on the screen, and projects their stars.
+    pub fn project(&self, pass: &mut wgpu::ComputePass) {
+        if !self.shown {
+            return;
         }
+        pass.set_pipeline(&self.cull);
+        pass.set_bind_group(1, &self.cull_group, &[]);
+        pass.dispatch_workgroups(self.clusters.div_ceil(64), 1, 1);
+        pass.set_pipeline(&self.project);
+        pass.set_bind_group(1, &self.project_group, &[]);
+        pass.dispatch_workgroups_indirect(&self.groups, 0);
     }
 
-    /// Projects the stars that may be seen.
-    pub fn project(&self, pass: &mut wgpu::ComputePass) {
-        let Some(group) = self.project_group.as_ref().filter(|_| self.groups > 0) else { return };
-        pass.set_pipeline(&self.project);
-        pass.set_bind_group(1, group, &[]);
-        pass.dispatch_workgroups(self.groups, 1, 1);
+    /// For tests that read them: arguments of the dispatch over the clusters that are kept and how many they are, the stars seen, and the
+    /// arguments of their draw.
+    pub fn lists(&self) -> [&wgpu::Buffer; 3] {
+        [&self.groups, &self.seen, &self.arguments]
     }
 
     /// Draws those that are seen.

@@ -20,7 +20,7 @@ mod solve;
 pub use angles::{Launch, launch, rain_angle, rain_momentum, shadow_angle, static_angle, static_redshift};
 pub use delay::{delay, zero_energy_delay};
 pub use orbit::{SweepEnd, follow};
-pub use sky::{sky_angle, sky_slope, swept_to_sky};
+pub use sky::{sky_angle, sky_rate, sky_slope, swept_to_sky};
 pub use solve::{join, join_near};
 
 /// The sign of the photon's energy at infinity E. `Minus` exists only where both ends of the ray are inside the horizon; the same

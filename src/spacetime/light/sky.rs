@@ -1,9 +1,9 @@
 //! Rays from infinity: direction to swept angle in closed form, and back.
 
 use super::angles::{launch, shadow_angle};
-use super::orbit::{CRITICAL_ENERGY_SQUARED, PHOTON_SPHERE, critical_excess};
+use super::orbit::{CRITICAL_ENERGY_SQUARED, Continued, PHOTON_SPHERE, critical_excess, shoot};
 use super::solve::in_range;
-use super::{Branch, join};
+use super::{Branch, Launch, join};
 
 /// Φ∞, the angle that the ray seen at `psi_rain` (rain frame, in [0, π]) sweeps on its way from infinity to the camera at
 /// `u_camera` = 1/L; None in the shadow, ψ ≥ [`shadow_angle`], where no such ray exists. It grows without bound towards the edge.
@@ -37,7 +37,7 @@ pub fn swept_to_sky(slope: f64, energy: f64, u_camera: f64) -> Option<f64> {
         return Some(rest);
     }
     // Beyond the half period, which ends at the highest real root; the way to the next pole is the shorter rest.
-    let d = if u < 1.0 { critical_excess(u, w) } else { (e * e - CRITICAL_ENERGY_SQUARED) / 16.0 };
+    let d = excess(slope, energy, u);
     let discriminant = -48.0 * d * (1.0 + root) / ((root + 2.0 / 3.0) * (root + 2.0 / 3.0));
     let turning_point = if discriminant < 0.0 { -root } else { 0.5 * (1.0 + root + discriminant.sqrt()) };
     Some(2.0 * to_pole(turning_point, 0.0, root) - rest)
@@ -47,6 +47,21 @@ pub fn swept_to_sky(slope: f64, energy: f64, u_camera: f64) -> Option<f64> {
 /// and finite. The inverse of [`swept_to_sky`].
 pub fn sky_slope(swept: f64, u_camera: f64) -> Option<f64> {
     join(0.0, swept, u_camera, Branch::Plus).map(|ray| ray.slope)
+}
+
+/// ∂Φ∞/∂w in r_s at the ray that is seen at `u_camera` and sweeps `swept` = Φ∞ from the sky; None if there is no such ray. While w grows
+/// by dw, u at the far end grows by `by_slope` dw, and the sky is that much farther along the ray.
+pub fn sky_rate(ray: Launch, swept: f64, u_camera: f64) -> Option<f64> {
+    let Launch { slope, energy } = ray;
+    match shoot(u_camera, slope, excess(slope, energy, u_camera), swept) {
+        Continued::At(carried) => Some((carried.by_slope + carried.by_d * slope / 8.0) / energy),
+        Continued::Escaped | Continued::Plunged => None,
+    }
+}
+
+/// d = (e² − 4/27)/16 of a ray at `u`, by whichever of w and e tells it without cancellation.
+fn excess(slope: f64, energy: f64, u: f64) -> f64 {
+    if u < 1.0 { critical_excess(u, slope) } else { (energy * energy - CRITICAL_ENERGY_SQUARED) / 16.0 }
 }
 
 /// s > 0 of the lowest root U = −s of U³ − U² + e²: s²(1 + s) = e².

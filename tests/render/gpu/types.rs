@@ -19,7 +19,8 @@ use lensrunner::render::gpu::library::{Library, Values, Worldlines};
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::gpu::targets::TILE;
 use lensrunner::render::gpu::types::{
-    self, Adaptation, Cap, Capacity, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, SeenVertex, Star,
+    self, Adaptation, Cap, Capacity, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, STAR_ORDERS,
+    SeenVertex, Star, StarCluster,
 };
 use lensrunner::render::gpu::types::{flags, placed};
 use lensrunner::render::models::ALONE;
@@ -104,6 +105,7 @@ fn structs_have_one_layout_in_both_languages() {
             fields!(GroundLight: dipole_x, planet, dipole_y, both_poles, dipole_z, per_radian, colour, older, pole, half_texel, unused),
         ),
         ("gpu::types::Star", fields!(Star: direction, flux, temperature, luminance, unused ["unused_a", "unused_b"])),
+        ("gpu::types::StarCluster", fields!(StarCluster: middle, spread, sine, first, count, unused)),
         (
             "sky::cells::CellDraws",
             fields!(CellDraws: smooth ["smooth_indices", "smooth_instances", "smooth_first", "smooth_base", "smooth_instance"], exact ["exact_indices", "exact_instances", "exact_first", "exact_base", "exact_instance"], columns, rows, side, unused),
@@ -208,6 +210,7 @@ fn constants_have_one_value_in_both_languages() {
         ("gpu::types::INSTANCE_MINUS", whole(placed::MINUS)),
         ("gpu::types::INSTANCE_NARROW_RING", whole(placed::NARROW_RING)),
         ("gpu::types::INSTANCE_OWN", whole(placed::OWN)),
+        ("gpu::types::STAR_ORDERS", whole(STAR_ORDERS)),
         ("instances::instance::INSTANCE_TEXELS", size_of::<Instance>() as f64 / 16.0),
         ("gpu::bindings::TABLE_ROW", TABLE_ROW as f64),
         ("gpu::types::SIDE_OPEN", whole(outside::OPEN)),
