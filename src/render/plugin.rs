@@ -22,6 +22,7 @@ use crate::render::disk::types::DiskCounters;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::device::{Watch, missing_limits};
 use crate::render::gpu::types::Counters;
+use crate::render::job::{Job, Wake};
 use crate::render::renderer::{Renderer, SceneUpload, Surroundings};
 use crate::render::renderer_loader::{Broken, RendererLoader};
 
@@ -75,18 +76,21 @@ pub struct RelativisticRenderPlugin {
 impl Plugin for RelativisticRenderPlugin {
     fn build(&self, app: &mut App) {
         let making = SurroundingsInTheMaking { ready: Arc::default(), make: self.surroundings };
-        // Without this thread they are made when the renderer is.
+        let wake = Wake::default();
         let early = making.clone();
-        _ = std::thread::Builder::new().name("surroundings".to_owned()).spawn(move || _ = early.wait());
+        // Without this thread they are made when the renderer is.
+        _ = Job::begin("surroundings", &wake, move || _ = early.wait());
         app.init_resource::<FrameToDraw>()
             .init_resource::<SceneToDraw>()
             .init_resource::<SceneReady>()
             .init_resource::<RenderStatistics>()
             .insert_resource(making.clone())
+            .insert_resource(wake.clone())
             .add_systems(PreUpdate, take_table.run_if(not(resource_exists::<LensingTable>)));
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app
             .insert_resource(making)
+            .insert_resource(wake)
             .init_resource::<FrameToDraw>()
             .init_resource::<SceneToDraw>()
             .init_resource::<PlannedView>()
@@ -138,9 +142,10 @@ impl SurroundingsInTheMaking {
     }
 }
 
-fn take_table(making: Res<SurroundingsInTheMaking>, mut commands: Commands) {
+fn take_table(making: Res<SurroundingsInTheMaking>, wake: Res<Wake>, mut commands: Commands) {
     if let Some(surroundings) = making.ready.get() {
         commands.insert_resource(LensingTable(surroundings.table.clone()));
+        wake.wake();
     }
 }
 
@@ -149,7 +154,7 @@ fn make_renderer(
     device: Res<RenderDevice>,
     queue: Res<RenderQueue>,
     info: Res<RenderAdapterInfo>,
-    making: Res<SurroundingsInTheMaking>,
+    (making, wake): (Res<SurroundingsInTheMaking>, Res<Wake>),
     mut commands: Commands,
 ) {
     if missing_limits(&device.limits()).is_some() {
@@ -157,8 +162,8 @@ fn make_renderer(
     }
     let gpu = Gpu { device: device.wgpu_device().clone(), queue: (**queue.0).clone(), adapter: (***info).clone(), watch: Watch::default() };
     let making = making.clone();
-    commands
-        .insert_resource(RendererLoader::begin(move || Renderer::new(&gpu, making.wait(), wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1])));
+    let make = move || Renderer::new(&gpu, making.wait(), wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1]);
+    commands.insert_resource(RendererLoader::begin(&wake, make));
 }
 
 fn take_frame(
