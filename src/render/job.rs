@@ -81,7 +81,7 @@ mod tests {
         assert!(job.is_finished() && begin.elapsed() < Duration::from_secs(50));
         assert_eq!(job.join().unwrap(), 5);
         // One that ends badly too; and what came before one waits is not missed.
-        let job = Job::begin("bad job", &wake, || std::panic::resume_unwind(Box::new(()))).unwrap();
+        let job = Job::<()>::begin("bad job", &wake, || std::panic::resume_unwind(Box::new(()))).unwrap();
         wake.wait(Duration::from_secs(60));
         assert!(job.is_finished() && job.join().is_err());
         wake.wake();

@@ -14,7 +14,7 @@ use bevy::render::camera::SortedCameras;
 use bevy::render::diagnostic::RecordDiagnostics;
 use bevy::render::renderer::{RenderAdapterInfo, RenderContext, RenderDevice, RenderQueue, ViewQuery};
 use bevy::render::view::ViewTarget;
-use bevy::render::{Extract, ExtractSchedule, MainWorld, Render, RenderApp, RenderStartup, RenderSystems};
+use bevy::render::{Extract, ExtractSchedule, MainWorld, Render, RenderApp, RenderSystems};
 
 use crate::lensing::Table;
 use crate::render::Gpu;
@@ -94,7 +94,6 @@ impl Plugin for RelativisticRenderPlugin {
             .init_resource::<FrameToDraw>()
             .init_resource::<SceneToDraw>()
             .init_resource::<PlannedView>()
-            .add_systems(RenderStartup, make_renderer)
             .add_systems(ExtractSchedule, (take_frame, exchange).chain().run_if(resource_exists::<RendererLoader>))
             .add_systems(
                 Render,
@@ -113,8 +112,8 @@ impl Plugin for RelativisticRenderPlugin {
     }
 
     fn finish(&self, app: &mut App) {
-        let Some(render_app) = app.get_sub_app(RenderApp) else { return };
-        let world = render_app.world();
+        let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
+        let world = render_app.world_mut();
         let complaint = match (world.get_resource::<RenderDevice>(), world.get_resource::<RenderAdapterInfo>()) {
             (Some(device), Some(info)) => {
                 missing_limits(&device.limits()).map(|needs| format!("the GPU adapter `{}` cannot be used: {needs}", info.name))
@@ -124,6 +123,8 @@ impl Plugin for RelativisticRenderPlugin {
         if let Some(complaint) = complaint {
             error!("{complaint}");
             app.world_mut().write_message(AppExit::error());
+        } else {
+            make_renderer(world);
         }
     }
 }
@@ -149,21 +150,14 @@ fn take_table(making: Res<SurroundingsInTheMaking>, wake: Res<Wake>, mut command
     }
 }
 
-/// Has all passes compiled. The size is the window's from the first frame on.
-fn make_renderer(
-    device: Res<RenderDevice>,
-    queue: Res<RenderQueue>,
-    info: Res<RenderAdapterInfo>,
-    (making, wake): (Res<SurroundingsInTheMaking>, Res<Wake>),
-    mut commands: Commands,
-) {
-    if missing_limits(&device.limits()).is_some() {
-        return;
-    }
+/// Has all passes compiled, before there is a window. The size is that of the window from the first frame on.
+fn make_renderer(world: &mut World) {
+    let (device, queue, info) = (world.resource::<RenderDevice>(), world.resource::<RenderQueue>(), world.resource::<RenderAdapterInfo>());
     let gpu = Gpu { device: device.wgpu_device().clone(), queue: (**queue.0).clone(), adapter: (***info).clone(), watch: Watch::default() };
-    let making = making.clone();
+    let making = world.resource::<SurroundingsInTheMaking>().clone();
     let make = move || Renderer::new(&gpu, making.wait(), wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1]);
-    commands.insert_resource(RendererLoader::begin(&wake, make));
+    let loader = RendererLoader::begin(world.resource::<Wake>(), make);
+    world.insert_resource(loader);
 }
 
 fn take_frame(

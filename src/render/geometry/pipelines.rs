@@ -113,8 +113,10 @@ impl PipelineCache {
             let inputs = self.inputs.clone();
             let compile = move || {
                 // The threads that frames are made on are left alone.
-                let _alone = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
-                inputs.pipelines(side)
+                match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
+                    Ok(pool) => pool.install(|| inputs.pipelines(side)),
+                    Err(_) => inputs.pipelines(side),
+                }
             };
             // Without a thread it is compiled when it is needed.
             let thread = std::thread::Builder::new().name("stages".to_owned()).spawn(compile);
