@@ -70,16 +70,15 @@ struct LayerDraws {
     thin: wgpu::RenderPipeline,
 }
 
-/// Compiles a pipeline of opaque or thin triangles by its name, entry points, targets, and whether depth is written.
+/// Compiles pipelines of opaque or thin triangles, each by its name.
 fn draw_pipeline<'d>(
     device: &'d wgpu::Device,
     frame_layout: &'d wgpu::BindGroupLayout,
     draw_layout: &'d wgpu::BindGroupLayout,
-) -> impl Fn(&str, [&str; 2], &[(wgpu::TextureFormat, Option<wgpu::BlendState>)], bool) -> wgpu::RenderPipeline + use<'d> {
+) -> impl Fn(&str, Raster) -> wgpu::RenderPipeline + use<'d> {
     let shader = module(device, "draw", Pass::Draw);
-    move |label, [vertex, fragment], targets, write| {
-        let stage = Raster { vertex, fragment, targets, depth: Some(write) };
-        let buffers = if vertex == "opaque_vertex" { &[seen_layout()] } else { &[thin_layout()] };
+    move |label, stage| {
+        let buffers = if stage.vertex == "opaque_vertex" { &[seen_layout()] } else { &[thin_layout()] };
         raster_of(device, label, &shader, stage, &[Some(frame_layout), None, Some(draw_layout)], buffers)
     }
 }
@@ -90,9 +89,12 @@ impl Draws {
         let pipeline = draw_pipeline(device, frame_layout, draw_layout);
         let one = |operation| wgpu::BlendComponent { src_factor: wgpu::BlendFactor::One, dst_factor: wgpu::BlendFactor::One, operation };
         let sum = wgpu::BlendState { color: one(wgpu::BlendOperation::Add), alpha: one(wgpu::BlendOperation::Add) };
-        let thin = |vertex| pipeline(vertex, [vertex, "thin_fragment"], &[(HDR_FORMAT, Some(sum)), (SIGNED_FORMAT, Some(sum))], false);
+        let sums = [(HDR_FORMAT, Some(sum)), (SIGNED_FORMAT, Some(sum))];
+        let thin = |vertex| pipeline(vertex, Raster { vertex, fragment: "thin_fragment", targets: &sums, depth: Some(false) });
+        let picture = [(HDR_FORMAT, None)];
+        let opaque = Raster { vertex: "opaque_vertex", fragment: "opaque_fragment", targets: &picture, depth: Some(true) };
         Draws {
-            opaque: pipeline("opaque", ["opaque_vertex", "opaque_fragment"], &[(HDR_FORMAT, None)], true),
+            opaque: pipeline("opaque", opaque),
             thin: thin("thin_vertex"),
             thin_across: ["thin_vertex_0", "thin_vertex_1", "thin_vertex_2", "thin_vertex_3"].map(thin),
         }
@@ -383,7 +385,9 @@ impl Geometry {
     pub fn prepare_layers(&mut self, device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout) {
         self.layer_draws.get_or_insert_with(|| {
             let pipeline = draw_pipeline(device, frame_layout, &self.draw_layout);
-            let layers = |label, vertex| pipeline(label, [vertex, "layers_fragment"], &[(LAYERS_FORMAT, None); 2], true);
+            let targets = [(LAYERS_FORMAT, None); 2];
+            let layers =
+                |label, vertex| pipeline(label, Raster { vertex, fragment: "layers_fragment", targets: &targets, depth: Some(true) });
             LayerDraws { opaque: layers("layers", "opaque_vertex"), thin: layers("layers thin", "thin_vertex") }
         });
     }
