@@ -56,7 +56,8 @@ pub fn seen_from(model: &Model) -> Vec<u32> {
     if let Some((_, known)) = lock().iter().find(|(other, _)| *other == corners) {
         return known.clone();
     }
-    let seen: Vec<Vec<bool>> = (0..DIRECTIONS).into_par_iter().map(|k| seen_in(&corners, direction_of(k))).collect();
+    let seen: Vec<Vec<bool>> =
+        (0..DIRECTIONS).into_par_iter().map_init(Vec::new, |depths, k| seen_in(&corners, direction_of(k), depths)).collect();
     let found: Vec<u32> = (0..corners.len()).map(|i| (0..DIRECTIONS).map(|k| u32::from(seen[k as usize][i]) << k).sum()).collect();
     let mut known = lock();
     known.truncate(MOST_KNOWN - 1);
@@ -87,8 +88,8 @@ pub fn seen_part(seen_from: u32, outward: Vec3, direction: Vec3) -> f32 {
     if all < 1e-6 { 1.0 } else { sum / all }
 }
 
-/// Whether each triangle is seen from `direction`, far away.
-fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3) -> Vec<bool> {
+/// Whether each triangle is seen from `direction`, far away; `depths` is room for a depth map.
+fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3, depths: &mut Vec<f32>) -> Vec<bool> {
     let (right, up) = direction.any_orthonormal_pair();
     // On the map x and y, and z towards the eye.
     let turned: Vec<[Vec3; 3]> =
@@ -99,7 +100,7 @@ fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3) -> Vec<bool> {
     let side = side_of(&turned, width);
     let cell = width / side as f32;
     let place = |p: Vec3| (p - low).truncate() / cell;
-    let depths = depth_map(&turned, side, place);
+    depth_map(&turned, side, place, depths);
     turned
         .iter()
         .map(|corners| {
@@ -138,9 +139,10 @@ fn covered(triangles: &[[Vec3; 3]], cells_per_length: f32) -> f64 {
 }
 
 /// The nearest depth at the middle of each cell, in rows with [`SPARE`] cells more; −∞ where there is nothing.
-fn depth_map(triangles: &[[Vec3; 3]], side: usize, place: impl Fn(Vec3) -> Vec2) -> Vec<f32> {
+fn depth_map(triangles: &[[Vec3; 3]], side: usize, place: impl Fn(Vec3) -> Vec2, depths: &mut Vec<f32>) {
     let row = side + SPARE;
-    let mut depths = vec![f32::NEG_INFINITY; row * side];
+    depths.clear();
+    depths.resize(row * side, f32::NEG_INFINITY);
     // The first cell whose number is at least `x`.
     let first = |x: f32| {
         let whole = x.max(0.0) as usize;
@@ -174,7 +176,6 @@ fn depth_map(triangles: &[[Vec3; 3]], side: usize, place: impl Fn(Vec3) -> Vec2)
             }
         }
     }
-    depths
 }
 
 #[cfg(test)]
@@ -235,7 +236,7 @@ mod tests {
         assert_eq!([side(1), side(200), side(2_000), side(100_000)], [SIDE, SIDE, 64, 8]);
         assert!(covered(&vec![one; 100_000], side(100_000) as f32) <= MOST_CELLS);
         // None of them hides another.
-        assert!(seen_in(&vec![one; 100_000], Vec3::Z).iter().all(|seen| *seen));
+        assert!(seen_in(&vec![one; 100_000], Vec3::Z, &mut Vec::new()).iter().all(|seen| *seen));
         let ball = shapes::icosphere(20_000, Material::default());
         let corners: Vec<[Vec3; 3]> =
             ball.triangles.iter().map(|triangle| triangle.map(|i| Vec3::from(ball.vertices[i as usize].position))).collect();
