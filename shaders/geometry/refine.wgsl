@@ -309,7 +309,9 @@ fn refine_triangle(piece: Piece, instance: Instance) {
         return;
     }
     var sides: array<Side, 3>;
-    for (var k = 0u; k < 3u; k++) {
+    // No piece is deeper. Compilers unroll loops of a known number of turns, and have three times as much to compile.
+    let count = select(3u, 0u, depth > DEEPEST);
+    for (var k = 0u; k < count; k++) {
         sides[k] = side_of(piece, k, instance);
     }
     let turned = max(sides[0].turn, max(sides[1].turn, sides[2].turn));

@@ -10,6 +10,7 @@ pub mod frame;
 pub mod geometry;
 pub mod gpu;
 pub mod instances;
+pub mod job;
 pub mod models;
 mod passes;
 pub mod plugin;

@@ -14,7 +14,7 @@ use bevy::render::camera::SortedCameras;
 use bevy::render::diagnostic::RecordDiagnostics;
 use bevy::render::renderer::{RenderAdapterInfo, RenderContext, RenderDevice, RenderQueue, ViewQuery};
 use bevy::render::view::ViewTarget;
-use bevy::render::{Extract, ExtractSchedule, MainWorld, Render, RenderApp, RenderStartup, RenderSystems};
+use bevy::render::{Extract, ExtractSchedule, MainWorld, Render, RenderApp, RenderSystems};
 
 use crate::lensing::Table;
 use crate::render::Gpu;
@@ -22,6 +22,7 @@ use crate::render::disk::types::DiskCounters;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::device::{Watch, missing_limits};
 use crate::render::gpu::types::Counters;
+use crate::render::job::{Job, Wake};
 use crate::render::renderer::{Renderer, SceneUpload, Surroundings};
 use crate::render::renderer_loader::{Broken, RendererLoader};
 
@@ -73,22 +74,24 @@ pub struct RelativisticRenderPlugin {
 impl Plugin for RelativisticRenderPlugin {
     fn build(&self, app: &mut App) {
         let making = SurroundingsInTheMaking { ready: Arc::default(), make: self.surroundings };
-        // Without this thread they are made when the renderer is.
+        let wake = Wake::default();
         let early = making.clone();
-        _ = std::thread::Builder::new().name("surroundings".to_owned()).spawn(move || _ = early.wait());
+        // Without this thread they are made when the renderer is.
+        _ = Job::begin("surroundings", &wake, move || _ = early.wait());
         app.init_resource::<FrameToDraw>()
             .init_resource::<SceneToDraw>()
             .init_resource::<SceneReady>()
             .init_resource::<RenderStatistics>()
             .insert_resource(making.clone())
+            .insert_resource(wake.clone())
             .add_systems(PreUpdate, take_table.run_if(not(resource_exists::<LensingTable>)));
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app
             .insert_resource(making)
+            .insert_resource(wake)
             .init_resource::<FrameToDraw>()
             .init_resource::<SceneToDraw>()
             .init_resource::<PlannedView>()
-            .add_systems(RenderStartup, make_renderer)
             .add_systems(ExtractSchedule, (take_frame, exchange).chain().run_if(resource_exists::<RendererLoader>))
             .add_systems(
                 Render,
@@ -107,8 +110,8 @@ impl Plugin for RelativisticRenderPlugin {
     }
 
     fn finish(&self, app: &mut App) {
-        let Some(render_app) = app.get_sub_app(RenderApp) else { return };
-        let world = render_app.world();
+        let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
+        let world = render_app.world_mut();
         let complaint = match (world.get_resource::<RenderDevice>(), world.get_resource::<RenderAdapterInfo>()) {
             (Some(device), Some(info)) => {
                 missing_limits(&device.limits()).map(|needs| format!("the GPU adapter `{}` cannot be used: {needs}", info.name))
@@ -118,6 +121,8 @@ impl Plugin for RelativisticRenderPlugin {
         if let Some(complaint) = complaint {
             error!("{complaint}");
             app.world_mut().write_message(AppExit::error());
+        } else {
+            make_renderer(world);
         }
     }
 }
@@ -136,27 +141,21 @@ impl SurroundingsInTheMaking {
     }
 }
 
-fn take_table(making: Res<SurroundingsInTheMaking>, mut commands: Commands) {
+fn take_table(making: Res<SurroundingsInTheMaking>, wake: Res<Wake>, mut commands: Commands) {
     if let Some(surroundings) = making.ready.get() {
         commands.insert_resource(LensingTable(surroundings.table.clone()));
+        wake.wake();
     }
 }
 
-/// Has all passes compiled. The size is the window's from the first frame on.
-fn make_renderer(
-    device: Res<RenderDevice>,
-    queue: Res<RenderQueue>,
-    info: Res<RenderAdapterInfo>,
-    making: Res<SurroundingsInTheMaking>,
-    mut commands: Commands,
-) {
-    if missing_limits(&device.limits()).is_some() {
-        return;
-    }
+/// Has all passes compiled, before there is a window. The size is that of the window from the first frame on.
+fn make_renderer(world: &mut World) {
+    let (device, queue, info) = (world.resource::<RenderDevice>(), world.resource::<RenderQueue>(), world.resource::<RenderAdapterInfo>());
     let gpu = Gpu { device: device.wgpu_device().clone(), queue: (**queue.0).clone(), adapter: (***info).clone(), watch: Watch::default() };
-    let making = making.clone();
-    commands
-        .insert_resource(RendererLoader::begin(move || Renderer::new(&gpu, making.wait(), wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1])));
+    let making = world.resource::<SurroundingsInTheMaking>().clone();
+    let make = move || Renderer::new(&gpu, making.wait(), wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1]);
+    let loader = RendererLoader::begin(world.resource::<Wake>(), make);
+    world.insert_resource(loader);
 }
 
 fn take_frame(

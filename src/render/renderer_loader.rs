@@ -2,21 +2,22 @@
 //! else and answers.
 
 use std::sync::Arc;
-use std::thread::JoinHandle;
 
 use bevy::platform::cell::SyncCell;
 use bevy::prelude::Resource;
 
 use crate::render::frame::FrameInput;
 use crate::render::gpu::targets::target;
-use crate::render::renderer::{Renderer, SceneUpload};
+use crate::render::job::{Job, Wake};
+use crate::render::renderer::{REHEARSED, Renderer, SceneUpload};
 
 /// The renderer, or the thread that has it meanwhile. One system at a time has it (its receivers are not shared between threads).
 #[derive(Resource)]
 pub(super) struct RendererLoader {
     renderer: Option<SyncCell<Renderer>>,
-    work: Option<JoinHandle<Renderer>>,
+    work: Option<Job<Renderer>>,
     scene: Option<Arc<SceneUpload>>,
+    wake: Wake,
 }
 
 /// The thread that worked on the renderer ended badly: there is none any more.
@@ -24,15 +25,15 @@ pub(super) struct RendererLoader {
 pub(super) struct Broken;
 
 impl RendererLoader {
-    /// Has a renderer made.
-    pub fn begin(make: impl FnOnce() -> Renderer + Send + 'static) -> RendererLoader {
-        let mut loader = RendererLoader { renderer: None, work: None, scene: None };
+    /// Has a renderer made; who waits is woken by the end of that, and of all other work.
+    pub fn begin(wake: &Wake, make: impl FnOnce() -> Renderer + Send + 'static) -> RendererLoader {
+        let mut loader = RendererLoader { renderer: None, work: None, scene: None, wake: wake.clone() };
         loader.work(make);
         loader
     }
 
     fn work(&mut self, work: impl FnOnce() -> Renderer + Send + 'static) {
-        self.work = std::thread::Builder::new().name("renderer".to_owned()).spawn(work).ok();
+        self.work = Job::begin("renderer", &self.wake, work).ok();
     }
 
     /// Takes the renderer back from the thread that is done with it. Nothing is left where that thread failed or could not begin.
@@ -83,9 +84,6 @@ impl Drop for RendererLoader {
         }
     }
 }
-
-/// Width and height of the pictures that nobody sees, in pixels: drivers compile the same for all sizes.
-const REHEARSED: [u32; 2] = [64, 36];
 
 /// Draws frames that nobody sees: some drivers compile a pass when it is first drawn with.
 fn rehearse(renderer: &mut Renderer, frames: &[FrameInput]) {

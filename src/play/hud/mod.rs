@@ -13,7 +13,10 @@ pub mod paint;
 pub mod palette;
 pub mod panel;
 
+use std::sync::LazyLock;
+
 use bevy::prelude::*;
+use bevy_egui::egui::text::{LayoutJob, TextFormat};
 use bevy_egui::egui::{self, Align2, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
@@ -185,12 +188,19 @@ fn preload_letters(context: &egui::Context, painter: &Painter) {
     if context.global_style().visuals.text_options.subpixel_binning {
         context.all_styles_mut(|style| style.visuals.text_options.subpixel_binning = false);
     }
-    let letters: String = (' '..='~').chain("\u{a0}“”—–−·×°²⁰¹³⁴⁵⁶⁷⁸⁹γτ…".chars()).collect();
-    for size in SIZES {
-        // Kept by the fonts as long as it is asked for.
-        let _ = painter.layout_no_wrap(letters.clone(), FontId::proportional(size), TEXT);
-    }
+    // Kept by the fonts as long as it is asked for.
+    let _ = painter.layout_job(LETTERS.clone());
 }
+
+/// All letters in all sizes.
+static LETTERS: LazyLock<LayoutJob> = LazyLock::new(|| {
+    let letters: String = (' '..='~').chain("\u{a0}“”—–−·×°²⁰¹³⁴⁵⁶⁷⁸⁹γτ…".chars()).collect();
+    let mut job = LayoutJob::default();
+    for size in SIZES {
+        job.append(&letters, 0.0, TextFormat::simple(FontId::proportional(size), TEXT));
+    }
+    job
+});
 
 /// The lower edge of the panels that come down in the middle.
 fn middle_bottom(text_boxes: &[TextBox], rect: Rect) -> f32 {

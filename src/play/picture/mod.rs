@@ -118,7 +118,8 @@ fn make_frame(
         return;
     };
     let config = &now.session.config;
-    let config = &photo.map_or_else(|| config.clone(), |photo| photo.config(config));
+    let of_photo = photo.map(|photo| photo.config(config));
+    let config = of_photo.as_ref().unwrap_or(config);
     // Times of an earlier frame will do.
     current.0.ration_aurora(&statistics.passes);
     let mut settings = Settings { rise, ..quality.turned(&settings(config)) };

@@ -2,7 +2,6 @@
 //! Meanwhile the window answers.
 
 use std::sync::Arc;
-use std::thread::JoinHandle;
 
 use bevy::prelude::*;
 
@@ -12,8 +11,9 @@ use crate::play::picture::now::Now;
 use crate::play::session::Session;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::types::placed::THIN;
+use crate::render::job::{Job, Wake};
 use crate::render::plugin::{FrameToDraw, LensingTable, SceneReady, SceneToDraw};
-use crate::render::renderer::SceneUpload;
+use crate::render::renderer::{REHEARSED, SceneUpload};
 use crate::render::stage::{Stage, settings};
 use crate::sim::snapshot::FrameCamera;
 
@@ -25,7 +25,7 @@ pub struct CurrentStage(pub Stage);
 #[derive(Resource, Debug)]
 pub enum StageLoading {
     /// Its models are being made.
-    Making(JoinHandle<(Stage, SceneUpload)>),
+    Making(Job<(Stage, SceneUpload)>),
     /// The renderer has it and compiles.
     HandedOver(Box<Stage>, Arc<SceneUpload>),
 }
@@ -52,7 +52,7 @@ pub fn restage(world: &mut World) {
         let (stage, upload) = Stage::prepare(&table, &scene, scene.assemble(&config), &config, None);
         (stage.watched(), upload)
     };
-    match std::thread::Builder::new().name("scene".to_owned()).spawn(make) {
+    match Job::begin("scene", world.resource::<Wake>(), make) {
         // What an earlier thread makes is not wanted any more.
         Ok(making) => world.insert_resource(StageLoading::Making(making)),
         Err(reason) => fail(world, &reason.to_string()),
@@ -96,6 +96,7 @@ fn hand_over(world: &mut World) {
     let upload = Arc::new(upload);
     world.insert_resource(SceneToDraw(Some(upload.clone())));
     world.insert_resource(StageLoading::HandedOver(Box::new(stage), upload));
+    world.resource::<Wake>().wake();
 }
 
 /// Once the renderer is ready, frames are made.
@@ -110,25 +111,21 @@ fn show(world: &mut World) {
     }
 }
 
-/// Radius of the rehearsed camera that is inside the horizon, in r_s.
-const INSIDE: f64 = 0.8;
-
-/// Frames that need whatever this scene may need: as seen from the player's ship and from far, with every image thin, inside the horizon.
+/// Frames that need whatever this scene may need: as seen from the player's ship, each image once more as a thin one, and from far. What is
+/// needed inside the horizon alone is compiled when the camera comes near it.
 fn rehearsal(mut stage: InMut<Stage>, now: Now) -> Vec<FrameInput> {
     let Some((history, ..)) = now.own() else { return Vec::new() };
-    let (me, time, config) = (now.session.player(), now.time(), now.session.config.clone());
+    let (me, time, config) = (now.session.player(), now.time(), &now.session.config);
     let state = state_of(&history.at(time));
     let field_of_view = config.video.fov.to_radians();
-    let settings = settings(&config);
+    let settings = settings(config);
     let mut frame = |shot: FrameCamera| {
         let settings = crate::render::settings::Settings { own_ship: shot.lit, ..settings };
-        stage.frame(shot.camera, [1280, 720], time, &now.histories(), shot.hidden, &settings)
+        stage.frame(shot.camera, REHEARSED, time, &now.histories(), shot.hidden, &settings)
     };
-    let own = frame(FrameCamera::own(me, &state, CameraView::ThirdPerson, state.attitude, now.session.length(me), field_of_view));
-    let far = frame(FrameCamera::afar(state.position, 0.0, field_of_view));
-    let mut thin = far.clone();
-    thin.placed.iter_mut().for_each(|image| image.instance.flags |= THIN);
-    let mut inside = own.clone();
-    inside.camera.position *= INSIDE / inside.camera.radius();
-    vec![far, own, thin, inside]
+    let mut own = frame(FrameCamera::own(me, &state, CameraView::ThirdPerson, state.attitude, now.session.length(me), field_of_view));
+    let mut thin = own.placed.clone();
+    thin.iter_mut().for_each(|image| image.instance.flags |= THIN);
+    own.placed.append(&mut thin);
+    vec![frame(FrameCamera::afar(state.position, 0.0, field_of_view)), own]
 }

@@ -22,6 +22,7 @@ use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::session::Session;
 use crate::play::words::font;
+use crate::render::job::Wake;
 use crate::scene::config::Video;
 
 /// A camera for the picture and the interface, which fits the window; and the mouse in play.
@@ -116,10 +117,10 @@ pub(in crate::play) fn mode(video: &Video) -> WindowMode {
 }
 
 /// Frames a second while the scene is loaded: enough to answer, and the processor is free for the work.
-const LOADING_FRAMES: u32 = 20;
+const LOADING_FRAMES: u32 = 10;
 
-/// Waits until the next frame is due, where frames are limited.
-fn limit_frames(session: Res<Session>, loading: Option<Res<Loading>>, mut due: Local<Option<Instant>>) {
+/// Waits until the next frame is due, where frames are limited; while the scene is loaded, until something has come.
+fn limit_frames(session: Res<Session>, loading: Option<Res<Loading>>, wake: Res<Wake>, mut due: Local<Option<Instant>>) {
     let limit = match session.config.video.frame_limit {
         limit if loading.is_none() => limit,
         0 => LOADING_FRAMES,
@@ -133,8 +134,13 @@ fn limit_frames(session: Res<Session>, loading: Option<Res<Loading>>, mut due: L
     let period = Duration::from_secs_f64(1.0 / f64::from(limit));
     // Who is late does not hurry afterwards.
     let next = due.map_or(now, |due| due + period).max(now.checked_sub(period).unwrap_or(now));
-    std::thread::sleep(next.saturating_duration_since(now));
-    *due = Some(next);
+    let rest = next.saturating_duration_since(now);
+    if loading.is_none() {
+        std::thread::sleep(rest);
+    } else {
+        wake.wait(rest);
+    }
+    *due = Some(next.min(Instant::now()));
 }
 
 /// Writes what the player chose, soon after it was chosen: a game that ends badly has lost nothing.

@@ -58,13 +58,12 @@ impl DiskPasses {
     /// Compiles the passes.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, disk: DrawnDisk) -> DiskPasses {
         use wgpu::BindingResource::TextureView;
-        let textures = Textures::new(gpu);
         let slots = [Slot::Uniform, Slot::Texture, Slot::Texture];
         let gas_layout = layout(&gpu.device, "gas", ShaderStages::VERTEX_FRAGMENT | ShaderStages::COMPUTE, &slots);
+        let (textures, arcs) = rayon::join(|| Textures::new(gpu), || ArcPass::new(gpu, frame_layout, &gas_layout));
         let frame = buffer(&gpu.device, "disk frame", size_of::<DiskFrame>() as u64, BufferUsages::UNIFORM);
         let resources = [frame.as_entire_binding(), TextureView(&textures.far), TextureView(&textures.near)];
         let gas_group = bind(&gpu.device, "gas", &gas_layout, &resources);
-        let arcs = ArcPass::new(gpu, frame_layout, &gas_layout);
         let representation = Representation::Arcs;
         let (view, straight) = (DiskView::of(&disk), None);
         let mut passes =

@@ -36,6 +36,8 @@ pub struct Geometry {
     draw_layout: wgpu::BindGroupLayout,
     pipelines: PipelineCache,
     draws: Draws,
+    /// Made when layers are first asked for.
+    layer_draws: Option<LayerDraws>,
     /// Those of the prepared frame.
     lists: BodyLists,
     /// Passes of splitting in the frame that is recorded.
@@ -63,31 +65,42 @@ struct Draws {
     thin: wgpu::RenderPipeline,
     /// Thin images whose light crosses the disk's plane never, once, twice, three times.
     thin_across: [wgpu::RenderPipeline; 4],
-    layers: wgpu::RenderPipeline,
-    layers_thin: wgpu::RenderPipeline,
+}
+
+/// What draws the layers of a picture.
+#[derive(Debug)]
+struct LayerDraws {
+    opaque: wgpu::RenderPipeline,
+    thin: wgpu::RenderPipeline,
+}
+
+/// Compiles pipelines of opaque or thin triangles, each by its name.
+fn draw_pipeline<'d>(
+    device: &'d wgpu::Device,
+    frame_layout: &'d wgpu::BindGroupLayout,
+    draw_layout: &'d wgpu::BindGroupLayout,
+) -> impl Fn(&str, Raster) -> wgpu::RenderPipeline + use<'d> {
+    let shader = module(device, "draw", Pass::Draw);
+    move |label, stage| {
+        let buffers = if stage.vertex == "opaque_vertex" { &[seen_layout()] } else { &[thin_layout()] };
+        raster_of(device, label, &shader, stage, &[Some(frame_layout), None, Some(draw_layout)], buffers)
+    }
 }
 
 impl Draws {
     /// Compiles what draws the triangles that the stages make.
     fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, draw_layout: &wgpu::BindGroupLayout) -> Draws {
-        let shader = module(device, "draw", Pass::Draw);
-        let draw_groups = [Some(frame_layout), None, Some(draw_layout)];
+        let pipeline = draw_pipeline(device, frame_layout, draw_layout);
         let one = |operation| wgpu::BlendComponent { src_factor: wgpu::BlendFactor::One, dst_factor: wgpu::BlendFactor::One, operation };
         let sum = wgpu::BlendState { color: one(wgpu::BlendOperation::Add), alpha: one(wgpu::BlendOperation::Add) };
-        let draw_to = |label, vertex, fragment, targets: &[_], write| {
-            let stage = Raster { vertex, fragment, targets, depth: Some(write) };
-            let buffers = if vertex == "opaque_vertex" { &[seen_layout()] } else { &[thin_layout()] };
-            raster_of(device, label, &shader, stage, &draw_groups, buffers)
-        };
-        let draw = |label, vertex, fragment, format, blend, write| draw_to(label, vertex, fragment, &[(format, blend)], write);
-        let layers = |label, vertex| draw_to(label, vertex, "layers_fragment", &[(LAYERS_FORMAT, None); 2], true);
-        let thin = |vertex| draw_to(vertex, vertex, "thin_fragment", &[(HDR_FORMAT, Some(sum)), (SIGNED_FORMAT, Some(sum))], false);
+        let sums = [(HDR_FORMAT, Some(sum)), (SIGNED_FORMAT, Some(sum))];
+        let thin = |vertex| pipeline(vertex, Raster { vertex, fragment: "thin_fragment", targets: &sums, depth: Some(false) });
+        let picture = [(HDR_FORMAT, None)];
+        let opaque = Raster { vertex: "opaque_vertex", fragment: "opaque_fragment", targets: &picture, depth: Some(true) };
         Draws {
-            opaque: draw("opaque", "opaque_vertex", "opaque_fragment", HDR_FORMAT, None, true),
+            opaque: pipeline("opaque", opaque),
             thin: thin("thin_vertex"),
             thin_across: ["thin_vertex_0", "thin_vertex_1", "thin_vertex_2", "thin_vertex_3"].map(thin),
-            layers: layers("layers", "opaque_vertex"),
-            layers_thin: layers("layers thin", "thin_vertex"),
         }
     }
 }
@@ -149,13 +162,15 @@ impl Geometry {
             arguments: arguments_layout.clone(),
             worldlines,
         };
-        let pipelines = PipelineCache::new(inputs, (Method::default(), false));
+        let (pipelines, draws) =
+            rayon::join(|| PipelineCache::new(inputs, (Method::default(), false)), || Draws::new(device, frame_layout, &draw_layout));
         let storage = BufferUsages::STORAGE;
         let arguments = buffer(device, "arguments", types::ARGUMENTS_BYTES, storage | BufferUsages::INDIRECT);
         let arguments_group = bind(device, "arguments", &arguments_layout, &[arguments.as_entire_binding()]);
         Geometry {
             group_layout,
-            draws: Draws::new(device, frame_layout, &draw_layout),
+            draws,
+            layer_draws: None,
             draw_layout,
             pipelines,
             lists: BodyLists::default(),
@@ -379,10 +394,22 @@ impl Geometry {
         self.draws.thin_across.get(crossings as usize).is_some_and(|pipeline| self.begin(pass, pipeline, &self.thin.buffer))
     }
 
-    /// The layers of both.
+    /// Compiles what draws layers, before they are first drawn.
+    pub fn prepare_layers(&mut self, device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout) {
+        self.layer_draws.get_or_insert_with(|| {
+            let pipeline = draw_pipeline(device, frame_layout, &self.draw_layout);
+            let targets = [(LAYERS_FORMAT, None); 2];
+            let layers =
+                |label, vertex| pipeline(label, Raster { vertex, fragment: "layers_fragment", targets: &targets, depth: Some(true) });
+            LayerDraws { opaque: layers("layers", "opaque_vertex"), thin: layers("layers thin", "thin_vertex") }
+        });
+    }
+
+    /// The layers of both; after [`prepare_layers`](Geometry::prepare_layers).
     pub fn draw_layers(&self, pass: &mut wgpu::RenderPass) {
-        self.draw_surfaces(pass, &self.draws.layers);
-        self.draw_all_thin(pass, &self.draws.layers_thin);
+        let Some(draws) = &self.layer_draws else { return };
+        self.draw_surfaces(pass, &draws.opaque);
+        self.draw_all_thin(pass, &draws.thin);
     }
 
     /// The counters, for reading back.

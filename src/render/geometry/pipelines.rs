@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 
 use crate::lensing::methods::Method;
-use crate::render::gpu::layout::compute_of;
+use crate::render::gpu::layout::{compute_in, module_of};
 use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::shaders::Pass;
 
@@ -43,21 +43,35 @@ impl PipelineInputs {
     fn pipelines(&self, (method, inside): Side) -> GeometryPipelines {
         let device = &self.device;
         let groups = [Some(&self.frame), Some(&self.geometry)];
-        let module = |pass: Pass| pass.module_along(self.worldlines, method, inside);
-        let stage = |label, pass, entry| compute_of(device, label, module(pass), entry, &groups);
         let with_arguments = [Some(&self.frame), Some(&self.geometry), Some(&self.arguments)];
-        let argument = |entry| compute_of(device, entry, module(Pass::Arguments), entry, &with_arguments);
+        let module = |label, pass: Pass| module_of(device, label, pass.module_along(self.worldlines, method, inside));
+        let stage = |label, pass| compute_in(device, label, &module(label, pass), "main", &groups);
+        let arguments = || {
+            let arguments = module("arguments", Pass::Arguments);
+            ["next_pieces", "last_pieces", "finish", "finish_thin"]
+                .map(|entry| compute_in(device, entry, &arguments, entry, &with_arguments))
+        };
+        let mesh = || {
+            let mesh = module("mesh", Pass::Mesh);
+            let entry = |label, entry| compute_in(device, label, &mesh, entry, &groups);
+            rayon::join(|| entry("mesh vertices", "vertices"), || entry("mesh triangles", "triangles"))
+        };
+        let first = || rayon::join(|| stage("vertices", Pass::Vertices), || stage("edges", Pass::Edges));
+        let second = || rayon::join(|| stage("triangles", Pass::Triangles), || stage("refine", Pass::Refine));
+        // Drivers compile on the thread that asks: on as many as there are.
+        let (((vertices, edges), (triangles, refine)), ((mesh_vertices, mesh_triangles), [next_pieces, last_pieces, finish, finish_thin])) =
+            rayon::join(|| rayon::join(first, second), || rayon::join(mesh, arguments));
         GeometryPipelines {
-            vertices: stage("vertices", Pass::Vertices, "main"),
-            edges: stage("edges", Pass::Edges, "main"),
-            triangles: stage("triangles", Pass::Triangles, "main"),
-            refine: stage("refine", Pass::Refine, "main"),
-            next_pieces: argument("next_pieces"),
-            last_pieces: argument("last_pieces"),
-            finish: argument("finish"),
-            finish_thin: argument("finish_thin"),
-            mesh_vertices: stage("mesh vertices", Pass::Mesh, "vertices"),
-            mesh_triangles: stage("mesh triangles", Pass::Mesh, "triangles"),
+            vertices,
+            edges,
+            triangles,
+            refine,
+            next_pieces,
+            last_pieces,
+            finish,
+            finish_thin,
+            mesh_vertices,
+            mesh_triangles,
         }
     }
 }
@@ -110,8 +124,15 @@ impl PipelineCache {
         }
         if self.ahead.is_none() && self.kept.iter().all(|kept| kept.0 != side) {
             let inputs = self.inputs.clone();
+            let compile = move || {
+                // The threads that frames are made on are left alone.
+                match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
+                    Ok(pool) => pool.install(|| inputs.pipelines(side)),
+                    Err(_) => inputs.pipelines(side),
+                }
+            };
             // Without a thread it is compiled when it is needed.
-            let thread = std::thread::Builder::new().name("stages".to_owned()).spawn(move || inputs.pipelines(side));
+            let thread = std::thread::Builder::new().name("stages".to_owned()).spawn(compile);
             self.ahead = thread.ok().map(|thread| (side, thread));
         }
     }

@@ -271,12 +271,22 @@ pub fn compute_of(
     entry: &str,
     layouts: &[Option<&wgpu::BindGroupLayout>],
 ) -> wgpu::ComputePipeline {
-    let module = module_of(device, label, shader);
+    compute_in(device, label, &module_of(device, label, shader), entry, layouts)
+}
+
+/// A compute pipeline of one entry point of a module that has several.
+pub fn compute_in(
+    device: &wgpu::Device,
+    label: &str,
+    module: &wgpu::ShaderModule,
+    entry: &str,
+    layouts: &[Option<&wgpu::BindGroupLayout>],
+) -> wgpu::ComputePipeline {
     let layout = pipeline_layout(device, label, layouts);
     counted(device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(label),
         layout: Some(&layout),
-        module: &module,
+        module,
         entry_point: Some(entry),
         compilation_options: Default::default(),
         cache: None,

@@ -5,7 +5,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use rayon::prelude::*;
 
 use crate::scene::model::Model;
@@ -19,14 +19,15 @@ const CELLS: f64 = 16.0;
 /// The most cells that the triangles of a model cover together; of one with more, the map is coarser. Half a million triangles that all
 /// cover the whole map would take minutes.
 const MOST_CELLS: f64 = 16_777_216.0;
-/// Points of a triangle that are tested, as weights of its corners: the middles of its four quarters. It counts as seen if half of them
-/// are.
-const POINTS: [[f32; 3]; 4] = [
-    [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
-    [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0],
-    [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0],
-    [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
+/// Four points of a triangle that are tested: for each of its corners the weights by which they are made. They are the middles of its
+/// quarters. It counts as seen if two of them are.
+const POINTS: [Vec4; 3] = [
+    Vec4::new(1.0 / 3.0, 2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0),
+    Vec4::new(1.0 / 3.0, 1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0),
+    Vec4::new(1.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0),
 ];
+/// Cells after each row of a depth map: four are written at once.
+const SPARE: usize = 3;
 
 /// Direction `k` of [`DIRECTIONS`] (unit): the corners of an icosahedron and of the dodecahedron between; the twin of `direction_of` in
 /// `shaders/models/hiding.wgsl`.
@@ -57,7 +58,8 @@ pub fn seen_from(model: &Model) -> Vec<u32> {
     if let Some((_, known)) = lock().iter().find(|(other, _)| *other == corners) {
         return known.clone();
     }
-    let seen: Vec<Vec<bool>> = (0..DIRECTIONS).into_par_iter().map(|k| seen_in(&corners, direction_of(k))).collect();
+    let seen: Vec<Vec<bool>> =
+        (0..DIRECTIONS).into_par_iter().map_init(Vec::new, |depths, k| seen_in(&corners, direction_of(k), depths)).collect();
     let found: Vec<u32> = (0..corners.len()).map(|i| (0..DIRECTIONS).map(|k| u32::from(seen[k as usize][i]) << k).sum()).collect();
     let mut known = lock();
     known.truncate(MOST_KNOWN - 1);
@@ -88,8 +90,8 @@ pub fn seen_part(seen_from: u32, outward: Vec3, direction: Vec3) -> f32 {
     if all < 1e-6 { 1.0 } else { sum / all }
 }
 
-/// Whether each triangle is seen from `direction`, far away.
-fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3) -> Vec<bool> {
+/// Whether each triangle is seen from `direction`, far away; `depths` is room for a depth map.
+fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3, depths: &mut Vec<f32>) -> Vec<bool> {
     let (right, up) = direction.any_orthonormal_pair();
     // On the map x and y, and z towards the eye.
     let turned: Vec<[Vec3; 3]> =
@@ -99,8 +101,8 @@ fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3) -> Vec<bool> {
     let width = (high - low).truncate().max_element().max(1e-30);
     let side = side_of(&turned, width);
     let cell = width / side as f32;
-    let place = |p: Vec3| ((p - low) / cell).truncate();
-    let depths = depth_map(&turned, side, &place);
+    let place = |p: Vec3| (p - low).truncate() / cell;
+    depth_map(&turned, side, place, depths);
     turned
         .iter()
         .map(|corners| {
@@ -108,12 +110,14 @@ fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3) -> Vec<bool> {
             // The map has the depth at the middle of a cell: on a plane this much nearer at most, and rounding.
             let slope = normal.truncate().length() / normal.z.abs().max(0.05);
             let slack = 1.5 * slope * cell + 1e-4 * (high - low).max_element();
-            let seen = POINTS.iter().filter(|weights| {
-                let point: Vec3 = (0..3).map(|k| corners[k] * weights[k]).sum();
-                let [x, y] = place(point).as_usizevec2().to_array().map(|i| i.min(side - 1));
-                point.z + slack >= depths[y * side + x]
+            let [x, y, z] =
+                [0, 1, 2].map(|axis| POINTS[0] * corners[0][axis] + POINTS[1] * corners[1][axis] + POINTS[2] * corners[2][axis]);
+            let [x, y] = [(x - low.x) / cell, (y - low.y) / cell].map(|place| place.to_array());
+            let seen = (0..4).filter(|&k| {
+                let [x, y] = [x[k], y[k]].map(|place| (place as usize).min(side - 1));
+                z[k] + slack >= depths[y * (side + SPARE) + x]
             });
-            2 * seen.count() >= POINTS.len()
+            seen.count() >= 2
         })
         .collect()
 }
@@ -137,30 +141,44 @@ fn covered(triangles: &[[Vec3; 3]], cells_per_length: f32) -> f64 {
     triangles.iter().map(cells).sum()
 }
 
-/// The nearest depth at the middle of each cell; −∞ where there is nothing.
-fn depth_map(triangles: &[[Vec3; 3]], side: usize, place: &dyn Fn(Vec3) -> Vec2) -> Vec<f32> {
-    let mut depths = vec![f32::NEG_INFINITY; side * side];
+/// The nearest depth at the middle of each cell, in rows with [`SPARE`] cells more; −∞ where there is nothing.
+fn depth_map(triangles: &[[Vec3; 3]], side: usize, place: impl Fn(Vec3) -> Vec2, depths: &mut Vec<f32>) {
+    let row = side + SPARE;
+    depths.clear();
+    depths.resize(row * side, f32::NEG_INFINITY);
+    // The first cell whose number is at least `x`.
+    let first = |x: f32| {
+        let whole = x.max(0.0) as usize;
+        whole + usize::from((whole as f32) < x)
+    };
     for corners in triangles {
-        let [a, b, c] = corners.map(place);
+        let [a, b, c] = corners.map(&place);
         let area = (b - a).perp_dot(c - a);
         if area == 0.0 {
             continue;
         }
-        let from = (a.min(b).min(c) - 0.5).ceil().max(Vec2::ZERO).as_usizevec2();
-        let to = (a.max(b).max(c) + 0.5).ceil().max(Vec2::ZERO).as_usizevec2().min(glam::USizeVec2::splat(side));
-        for y in from.y..to.y {
-            for x in from.x..to.x {
-                let middle = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
-                let weights = [(b - middle).perp_dot(c - middle), (c - middle).perp_dot(a - middle), (a - middle).perp_dot(b - middle)];
-                if weights.iter().all(|weight| weight / area >= 0.0) {
-                    let depth = (0..3).map(|k| corners[k].z * weights[k]).sum::<f32>() / area;
-                    let here = &mut depths[y * side + x];
-                    *here = here.max(depth);
+        let from = (a.min(b).min(c) - 0.5).to_array().map(first);
+        let to = (a.max(b).max(c) + 0.5).to_array().map(|x| first(x).min(side));
+        let turn = Vec4::splat(area.signum());
+        for y in from[1]..to[1] {
+            let [ay, by, cy] = [a, b, c].map(|corner| corner.y - (y as f32 + 0.5));
+            for x in (from[0]..to[0]).step_by(4) {
+                // Four cells.
+                let middle = Vec4::splat(x as f32) + Vec4::new(0.5, 1.5, 2.5, 3.5);
+                let [ax, bx, cx] = [a, b, c].map(|corner| Vec4::splat(corner.x) - middle);
+                let weights = [bx * cy - cx * by, cx * ay - ax * cy, ax * by - bx * ay];
+                let inside = weights
+                    .iter()
+                    .fold(middle.cmplt(Vec4::splat(to[0] as f32)), |inside, weight| inside & (*weight * turn).cmpge(Vec4::ZERO));
+                if inside.any() {
+                    let depth = (weights[0] * corners[0].z + weights[1] * corners[1].z + weights[2] * corners[2].z) / area;
+                    let cells = &mut depths[y * row + x..][..4];
+                    let here = Vec4::from_slice(cells);
+                    Vec4::select(inside & depth.cmpgt(here), depth, here).write_to_slice(cells);
                 }
             }
         }
     }
-    depths
 }
 
 #[cfg(test)]
@@ -221,7 +239,7 @@ mod tests {
         assert_eq!([side(1), side(200), side(2_000), side(100_000)], [32, 56, 89, 8]);
         assert!(covered(&vec![one; 100_000], side(100_000) as f32) <= MOST_CELLS);
         // None of them hides another.
-        assert!(seen_in(&vec![one; 100_000], Vec3::Z).iter().all(|seen| *seen));
+        assert!(seen_in(&vec![one; 100_000], Vec3::Z, &mut Vec::new()).iter().all(|seen| *seen));
         let ball = shapes::icosphere(20_000, Material::default());
         let corners: Vec<[Vec3; 3]> =
             ball.triangles.iter().map(|triangle| triangle.map(|i| Vec3::from(ball.vertices[i as usize].position))).collect();

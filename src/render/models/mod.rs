@@ -9,6 +9,8 @@ pub mod patches;
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use image::RgbaImage;
+
 use crate::scene::model::{Image, Model};
 
 use crate::render::Gpu;
@@ -161,7 +163,7 @@ pub struct ModelSet {
     edges: Vec<[u32; 4]>,
     triangles: Vec<ModelTriangle>,
     materials: Vec<Material>,
-    images: Vec<Arc<Image>>,
+    images: Vec<(Arc<Image>, Arc<[RgbaImage]>)>,
 }
 
 impl ModelSet {
@@ -196,14 +198,14 @@ impl ModelSet {
 
     /// The layer of the texture array for an image. None when the array is full: the surface is then plain.
     fn layer(&mut self, image: &Arc<Image>) -> Option<usize> {
-        if let Some(known) = self.images.iter().position(|other| Arc::ptr_eq(other, image)) {
+        if let Some(known) = self.images.iter().position(|(other, _)| Arc::ptr_eq(other, image)) {
             return Some(known);
         }
         if self.images.len() >= TEXTURE_LAYERS as usize {
             bevy::log::warn!("a scene can have {TEXTURE_LAYERS} different images; one more is left out");
             return None;
         }
-        self.images.push(image.clone());
+        self.images.push((image.clone(), mips(image)));
         Some(self.images.len() - 1)
     }
 }
@@ -263,8 +265,8 @@ impl Models {
 
     /// Writes all of the set but the first `written` images, which are there.
     fn write(&mut self, gpu: &Gpu, written: usize) {
-        for (layer, image) in (0u32..).zip(&self.set.images).skip(written) {
-            self.write_image(gpu, image, layer);
+        for (layer, (_, mips)) in (0u32..).zip(&self.set.images).skip(written) {
+            self.write_image(gpu, mips, layer);
         }
         self.vertices.write(gpu, &self.set.vertices);
         self.edges.write(gpu, &self.set.edges);
@@ -272,14 +274,10 @@ impl Models {
         self.material_buffer.write(gpu, &self.set.materials);
     }
 
-    /// Writes an image with its mip chain into a layer of the texture array.
-    fn write_image(&self, gpu: &Gpu, image: &Image, layer: u32) {
-        let Some(mut level) = image::RgbaImage::from_raw(image.width, image.height, image.rgba.clone()) else { return };
-        for mip in 0..=TEXTURE_SIZE.ilog2() {
-            let size = TEXTURE_SIZE >> mip;
-            if level.width() != size || level.height() != size {
-                level = image::imageops::resize(&level, size, size, image::imageops::FilterType::Triangle);
-            }
+    /// Writes an image with all its levels into a layer of the texture array.
+    fn write_image(&self, gpu: &Gpu, mips: &[RgbaImage], layer: u32) {
+        for (mip, level) in (0u32..).zip(mips) {
+            let size = level.width();
             gpu.queue.write_texture(
                 wgpu::TexelCopyTextureInfo {
                     texture: &self.texture,
@@ -287,10 +285,24 @@ impl Models {
                     origin: wgpu::Origin3d { x: 0, y: 0, z: layer },
                     aspect: wgpu::TextureAspect::All,
                 },
-                &level,
+                level,
                 wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * size), rows_per_image: None },
                 wgpu::Extent3d { width: size, height: size, depth_or_array_layers: 1 },
             );
         }
     }
+}
+
+/// An image in the size of the texture array, and all its halvings.
+fn mips(image: &Image) -> Arc<[RgbaImage]> {
+    let Some(mut level) = RgbaImage::from_raw(image.width, image.height, image.rgba.clone()) else { return Arc::default() };
+    let sizes = (0..=TEXTURE_SIZE.ilog2()).map(|mip| TEXTURE_SIZE >> mip);
+    sizes
+        .map(|size| {
+            if level.width() != size || level.height() != size {
+                level = image::imageops::resize(&level, size, size, image::imageops::FilterType::Triangle);
+            }
+            level.clone()
+        })
+        .collect()
 }

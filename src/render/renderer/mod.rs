@@ -63,9 +63,14 @@ pub struct SceneUpload {
     pub models: ModelSet,
     /// The disk, if the scene has one.
     pub disk: Option<DrawnDisk>,
-    /// Frames to draw unseen before the first that is seen, so that all is compiled by then; with none the scene is shown at once.
+    /// Frames of [`REHEARSED`] pixels to draw unseen before the first that is seen, so that all is compiled by then; with none the scene is
+    /// shown at once.
     pub rehearsal: Vec<FrameInput>,
 }
+
+/// Width and height of the pictures that nobody sees, in pixels: drivers compile the same for all sizes, and a planet is still wide enough
+/// for its aurora.
+pub const REHEARSED: [u32; 2] = [192, 108];
 
 /// All passes and their buffers.
 #[derive(Debug)]
@@ -141,16 +146,23 @@ impl Renderer {
         let blackbody = TableTexture::of(gpu, "black body", &table);
         // Until the first frame is metered, a middling exposure.
         let adaptation = storage(gpu, "adaptation", &[types::Adaptation { exposure: 1.0, ..Default::default() }]);
-        let mut post_process = PostProcess::new(device, &frame_layout, format);
         let targets = Targets::new(device, size.map(|side| side.max(1)));
-        let upscale = Upscale::new(device, &frame_layout, format);
+        // Drivers compile on the thread that asks: on as many as there are.
+        let finishing = || (PostProcess::new(device, &frame_layout, format), Upscale::new(device, &frame_layout, format));
+        let sky = || {
+            let background = Background::new(gpu, &frame_layout, &surroundings.milky_way);
+            (background, Stars::new(gpu, &frame_layout, &surroundings.stars, &table), Aurora::new(gpu, &frame_layout))
+        };
+        let geometry = || Geometry::new(device, &frame_layout, Worldlines::Bodies);
+        let (((mut post_process, upscale), (background, stars, aurora)), (geometry, thin)) =
+            rayon::join(|| rayon::join(finishing, sky), || rayon::join(geometry, || ThinLists::new(device, &frame_layout)));
         post_process.resize(gpu, &targets, &adaptation);
         Renderer {
-            geometry: Geometry::new(device, &frame_layout, Worldlines::Bodies),
-            thin: ThinLists::new(device, &frame_layout),
-            background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
-            stars: Stars::new(gpu, &frame_layout, &surroundings.stars, &table),
-            aurora: Aurora::new(gpu, &frame_layout),
+            geometry,
+            thin,
+            background,
+            stars,
+            aurora,
             models: Models::new(device),
             timing: Timing::new(gpu),
             gpu: gpu.clone(),

@@ -23,6 +23,7 @@ impl Renderer {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             self.encode(&mut encoder, &view);
             if layers {
+                self.geometry.prepare_layers(&self.gpu.device, &self.frame_layout);
                 self.encode_layers(&mut encoder);
             }
             self.gpu.queue.submit([encoder.finish()]);

@@ -57,22 +57,26 @@ fn lattice() -> Vec<f32> {
             (0..columns * rows).map(|k| (hash(k as u64, 1 + number as u64) >> 11) as f64 / (1u64 << 52) as f64 - 1.0).collect();
         // Every second row of cells is shifted, so that cells do not line up along radii.
         let shift = |j: usize| (hash(j as u64, 101 + number as u64) >> 40) as f64 / (1u64 << 24) as f64;
-        let row_at = |x: f64, j: usize| {
-            let position = x * columns as f64 + shift(j) * columns as f64;
-            let whole = position.floor();
-            let t = smooth(position - whole);
-            let i = whole as usize % columns;
-            let (a, b) = (knots[j * columns + i], knots[j * columns + (i + 1) % columns]);
-            a + t * (b - a)
-        };
-        for y in 0..HEIGHT {
+        // The octave along each row of its cells.
+        let mut lines = vec![0.0; WIDTH * rows];
+        for (j, line) in lines.chunks_exact_mut(WIDTH).enumerate() {
+            for (x, value) in line.iter_mut().enumerate() {
+                let turn = (x as f64 + 0.5) / WIDTH as f64;
+                let position = turn * columns as f64 + shift(j) * columns as f64;
+                let whole = position.floor();
+                let t = smooth(position - whole);
+                let i = whole as usize % columns;
+                let (a, b) = (knots[j * columns + i], knots[j * columns + (i + 1) % columns]);
+                *value = a + t * (b - a);
+            }
+        }
+        for (y, sums) in sum.chunks_exact_mut(WIDTH).enumerate() {
             let position = (y as f64 + 0.5) / HEIGHT as f64 * rows as f64;
             let j = position as usize % rows;
             let t = smooth(position.fract());
-            for x in 0..WIDTH {
-                let turn = (x as f64 + 0.5) / WIDTH as f64;
-                let (a, b) = (row_at(turn, j), row_at(turn, (j + 1) % rows));
-                sum[y * WIDTH + x] += amplitude * (a + t * (b - a));
+            let line = |j: usize| &lines[j * WIDTH..][..WIDTH];
+            for ((sum, a), b) in sums.iter_mut().zip(line(j)).zip(line((j + 1) % rows)) {
+                *sum += amplitude * (a + t * (b - a));
             }
         }
     }

@@ -108,19 +108,30 @@ fn clouds_of_noise(position: [f32; 3], scale: f32, seed: u32) -> f32 {
 
 /// Noise in [0, 1], smooth, one value at each point of the integer lattice.
 fn space_noise(position: [f32; 3], seed: u32) -> f32 {
-    let cell = position.map(f32::floor);
+    let cell = position.map(floor);
     let s: [f32; 3] = std::array::from_fn(|k| {
         let t = position[k] - cell[k];
         t * t * (3.0 - 2.0 * t)
     });
     let mut sum = 0.0;
-    for corner in 0..8u32 {
-        let bit = |k: usize| (corner >> k & 1) as f32;
-        let key = (0..3).fold(seed, |key, k| random::hash(key.wrapping_add((cell[k] + bit(k)) as i32 as u32)));
-        let weight: f32 = (0..3).map(|k| if bit(k) > 0.0 { s[k] } else { 1.0 - s[k] }).product();
-        sum += weight * (key >> 8) as f32 / 16_777_216.0;
+    // On the lower and the upper side along each axis: a weight, and the number so far, hashed with the place.
+    let along = |k: usize, key: u32| {
+        let hashed = |bit: f32| random::hash(key.wrapping_add((cell[k] + bit) as i32 as u32));
+        [(1.0 - s[k], hashed(0.0)), (s[k], hashed(1.0))]
+    };
+    let first = along(0, seed).map(|(x, key)| (x, along(1, key)));
+    let corners =
+        first.map(|(x, second)| second.map(|(y, key)| along(2, key).map(|(z, key)| x * y * z * (key >> 8) as f32 / 16_777_216.0)));
+    for corner in 0..8 {
+        sum += corners[corner & 1][corner >> 1 & 1][corner >> 2];
     }
     sum
+}
+
+/// The greatest whole number that is not above `x`, of some millions at most. The library's is a call on processors of old.
+fn floor(x: f32) -> f32 {
+    let whole = x as i32 as f32;
+    if whole > x { whole - 1.0 } else { whole }
 }
 
 fn draw(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [u8; 4] + Sync) -> Image {
