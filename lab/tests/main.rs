@@ -1,6 +1,7 @@
 //! All tests of the laboratory in one binary; the folders mirror `lab/src/`. What they share with those of the game is read from there.
 
 mod aurora;
+mod bodies;
 mod bvh;
 mod chart;
 mod command_line;

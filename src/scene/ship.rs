@@ -33,11 +33,12 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::document::{exactly, exactly_or_none};
+use super::swarm::SwarmEntry;
 use crate::spacetime::matter::{SINGULARITY_RADIUS, ShipState};
 use crate::spacetime::orbit::{Elements, OrbitError};
 
 /// The farthest a ship may start, in r_s.
-const MAX_START_RADIUS: f64 = 1e6;
+pub(super) const MAX_START_RADIUS: f64 = 1e6;
 /// The largest starting momentum per mass, in c. Beyond it γ − βn·p loses the energy to rounding.
 pub const MAX_START_MOMENTUM: f64 = 1e6;
 /// The largest proper acceleration in a programme or of an engine, in c²/r_s.
@@ -208,10 +209,10 @@ struct BurnEntry {
 }
 
 /// The most ships of a scene.
-const MOST_SHIPS: usize = 1000;
+pub(super) const MOST_SHIPS: usize = 1000;
 
-/// Checks all ships of a scene: each by itself, names unique, targets known.
-pub fn check_ships(entries: &[Spanned<ShipEntry>]) -> Result<Vec<ShipSpec>, Fault> {
+/// Checks all ships of a scene, those of swarms behind the others: each by itself, names unique, targets known.
+pub fn check_ships(entries: &[Spanned<ShipEntry>], swarms: &[SwarmEntry]) -> Result<Vec<ShipSpec>, Fault> {
     if let Some(entry) = entries.get(MOST_SHIPS) {
         return Err(Fault { span: entry.span(), message: format!("{} ships, allowed are {MOST_SHIPS}", entries.len()) });
     }
@@ -222,6 +223,13 @@ pub fn check_ships(entries: &[Spanned<ShipEntry>]) -> Result<Vec<ShipSpec>, Faul
             return fault(&entry.get_ref().name, format!("name = {:?} is taken by an earlier ship; names must differ", ship.name));
         }
         ships.push(ship);
+    }
+    for swarm in swarms {
+        let more = swarm.check(MOST_SHIPS - ships.len())?;
+        if let Some(ship) = more.iter().find(|ship| ships.iter().any(|other| other.name == ship.name)) {
+            return fault(&swarm.name, format!("its ship {:?} has the name of an earlier ship; names must differ", ship.name));
+        }
+        ships.extend(more);
     }
     for entry in entries {
         let entry = entry.get_ref();
