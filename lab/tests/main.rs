@@ -3,6 +3,8 @@
 mod aurora;
 mod bodies;
 mod bvh;
+#[cfg(unix)]
+mod card;
 mod chart;
 mod command_line;
 mod compare;

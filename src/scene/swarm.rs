@@ -49,7 +49,10 @@ impl SwarmEntry {
         let name = self.name.get_ref();
         // A number is added to it.
         if !(1..=50).contains(&name.len()) || name.chars().any(|c| c == ',' || c == '"' || c.is_control()) {
-            return fault(&self.name, format!("name = {name:?} must have 1 to 50 characters, without commas, quotes and control characters"));
+            return fault(
+                &self.name,
+                format!("name = {name:?} must have 1 to 50 characters, without commas, quotes and control characters"),
+            );
         }
         let count = *self.count.get_ref();
         if count == 0 || count as usize > room {

@@ -9,6 +9,8 @@ use crate::plot::{Axis, Figure, Guide, Line, Lines, Panel};
 
 /// The most that WebGPU lets a pass see of a buffer, in MiB.
 const MOST_BOUND: f64 = 128.0;
+/// The processor's time that is aimed at, in µs: for a held body, and for a flying one and image order.
+const AIMS: [f64; 2] = [0.3, 10.0];
 /// What is drawn of a frame's time: whose, which part, its name.
 const DRAWN: [[&str; 3]; 5] = [
     [PROCESSOR, TOGETHER, "processor together"],
@@ -20,18 +22,22 @@ const DRAWN: [[&str; 3]; 5] = [
 
 /// Times of held and of flying bodies, and memory.
 pub(super) fn figure(sheet: &Sheet, growth: &Sheet) -> Figure {
-    let times = |kind: Kind, title: &str| {
+    let orders = growth.note("image orders").and_then(|orders| orders.parse().ok()).unwrap_or(1.0);
+    let times = |kind: Kind, title: &str, aim: f64| {
         let line = |[whose, part, name]: [&str; 3]| Line {
             name: name.into(),
             points: points(sheet, kind.name(), whose, part, "median_ms"),
             dots: true,
             failed: Vec::new(),
         };
+        let aimed =
+            points(sheet, kind.name(), PROCESSOR, TOGETHER, "median_ms").into_iter().map(|[bodies, _]| [bodies, 1e-3 * aim * bodies]);
+        let aim = Line { name: format!("aim: {aim} µs a body"), points: aimed.collect(), ..Line::default() };
         Panel::Lines(Lines {
             title: title.into(),
             x: Axis::log("bodies"),
             y: Axis::log("ms of a frame, median"),
-            lines: DRAWN.map(line).to_vec(),
+            lines: DRAWN.into_iter().map(line).chain([aim]).collect(),
             ..Lines::default()
         })
     };
@@ -57,7 +63,7 @@ pub(super) fn figure(sheet: &Sheet, growth: &Sheet) -> Figure {
         verdict: verdict(growth),
         title: "Growth with the number of bodies".into(),
         subtitle: "Times of a frame's parts; fitted to the upper half of the numbers. Lower is better.".into(),
-        panels: vec![times(Kind::Held, "Held balls"), times(Kind::Flying, "Flying ships"), memory],
+        panels: vec![times(Kind::Held, "Held balls", AIMS[0]), times(Kind::Flying, "Flying ships", AIMS[1] * orders), memory],
         columns: 3,
         size: [1800, 720],
         footer: missing.chain(Provenance::footer(&sheet.notes)).collect(),

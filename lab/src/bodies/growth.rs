@@ -6,8 +6,7 @@ use crate::chart::{Sheet, mean};
 
 /// The columns of the sheet `bodies-growth`. `exponent`: the slope of the cost's logarithm over that of the number. The others: the slope
 /// of the cost over the number.
-const COLUMNS: [&str; 7] =
-    ["kind", "whose", "part", "exponent", "microseconds_a_body", "microseconds_a_body_and_order", "bytes_a_body"];
+const COLUMNS: [&str; 7] = ["kind", "whose", "part", "exponent", "microseconds_a_body", "microseconds_a_body_and_order", "bytes_a_body"];
 
 /// How a cost grows.
 #[derive(Clone, Copy, Debug, PartialEq)]

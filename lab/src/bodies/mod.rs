@@ -113,13 +113,7 @@ fn measure(request: &BodiesRequest, so_far: &dyn Fn(&Sheet) -> Result<(), crate:
 }
 
 /// Draws so many bodies, on a device of their own: its memory is theirs, and what goes wrong with it stays there.
-fn time(
-    request: &BodiesRequest,
-    config: &GameConfig,
-    surroundings: &Surroundings,
-    kind: Kind,
-    bodies: u32,
-) -> Result<FrameTimes, String> {
+fn time(request: &BodiesRequest, config: &GameConfig, surroundings: &Surroundings, kind: Kind, bodies: u32) -> Result<FrameTimes, String> {
     let gpu = Gpu::headless().map_err(|error| error.to_string())?;
     let scene = kind.scene(bodies).map_err(|error| error.to_string())?;
     let moment = Moment::new(&scene, config, 0.0, 0);

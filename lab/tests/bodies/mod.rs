@@ -42,7 +42,8 @@ fn times_are_told_a_body_and_order_and_memory_a_body() {
         measured.line(format_args!("held|{bodies}|memory|all||||{}", 1_000_000 + 400 * bodies));
     }
     let growth = sheet(&measured, 2);
-    let texts = |row: &[String]| ["microseconds_a_body", "microseconds_a_body_and_order", "bytes_a_body"].map(|c| growth.text(row, c).to_owned());
+    let texts =
+        |row: &[String]| ["microseconds_a_body", "microseconds_a_body_and_order", "bytes_a_body"].map(|c| growth.text(row, c).to_owned());
     assert_eq!(growth.rows.iter().map(|row| texts(row)).collect::<Vec<_>>(), [["3.0000", "1.5000", ""], ["", "", "400.0"]]);
 }
 
