@@ -19,7 +19,7 @@ use super::planet::{Planet, PlanetEntry, SkyEntry, SkySwitches, check_planet, ch
 use super::prop::{Prop, PropEntry, check_props};
 use super::rules::{Rules, RulesEntry};
 use super::ship::{ShipEntry, ShipSpec, check_ships};
-use super::swarm::SwarmEntry;
+use super::swarm::{SwarmEntry, check_swarms};
 use crate::game_files::{self, GameFile};
 use crate::user_file::{FileFault, MOST_TEXT};
 
@@ -167,7 +167,7 @@ fn check_models(entry: &SceneFile) -> Result<(), Fault> {
 
 fn check(entry: &SceneFile) -> Result<Scene, Fault> {
     check_models(entry)?;
-    let ships = check_ships(&entry.ship, &entry.swarm)?;
+    let ships = check_ships(&entry.ship, check_swarms(&entry.swarm, entry.ship.len())?)?;
     entry.rules.check(Rules::default())?;
     let planet = entry.planet.as_ref().map(check_planet).transpose()?;
     Ok(Scene {

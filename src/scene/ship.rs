@@ -33,7 +33,6 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::document::{exactly, exactly_or_none};
-use super::swarm::SwarmEntry;
 use crate::spacetime::matter::{SINGULARITY_RADIUS, ShipState};
 use crate::spacetime::orbit::{Elements, OrbitError};
 
@@ -211,26 +210,20 @@ struct BurnEntry {
 /// The most ships of a scene.
 pub(super) const MOST_SHIPS: usize = 1000;
 
-/// Checks all ships of a scene, those of swarms behind the others: each by itself, names unique, targets known.
-pub fn check_ships(entries: &[Spanned<ShipEntry>], swarms: &[SwarmEntry]) -> Result<Vec<ShipSpec>, Fault> {
+/// Checks all ships of a scene: each by itself, names unique, targets known. Those of swarms, which are checked, come last.
+pub fn check_ships(entries: &[Spanned<ShipEntry>], swarms: Vec<ShipSpec>) -> Result<Vec<ShipSpec>, Fault> {
     if let Some(entry) = entries.get(MOST_SHIPS) {
         return Err(Fault { span: entry.span(), message: format!("{} ships, allowed are {MOST_SHIPS}", entries.len()) });
     }
     let mut ships: Vec<ShipSpec> = Vec::with_capacity(entries.len());
     for entry in entries {
         let ship = check_ship(entry)?;
-        if ships.iter().any(|other| other.name == ship.name) {
-            return fault(&entry.get_ref().name, format!("name = {:?} is taken by an earlier ship; names must differ", ship.name));
+        if ships.iter().chain(&swarms).any(|other| other.name == ship.name) {
+            return fault(&entry.get_ref().name, format!("name = {:?} is taken by another ship; names must differ", ship.name));
         }
         ships.push(ship);
     }
-    for swarm in swarms {
-        let more = swarm.check(MOST_SHIPS - ships.len())?;
-        if let Some(ship) = more.iter().find(|ship| ships.iter().any(|other| other.name == ship.name)) {
-            return fault(&swarm.name, format!("its ship {:?} has the name of an earlier ship; names must differ", ship.name));
-        }
-        ships.extend(more);
-    }
+    ships.extend(swarms);
     for entry in entries {
         let entry = entry.get_ref();
         let wrong =

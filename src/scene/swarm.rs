@@ -25,13 +25,25 @@ use crate::spacetime::orbit::{Elements, OrbitError};
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SwarmEntry {
-    pub(super) name: Spanned<String>,
+    name: Spanned<String>,
     count: Spanned<u32>,
     #[serde(deserialize_with = "exactly")]
     radius: Spanned<[f64; 2]>,
     #[serde(default, deserialize_with = "exactly_or_none")]
     inclination: Option<Spanned<[f64; 2]>>,
     model: Option<Spanned<String>>,
+}
+
+/// Checks all swarms of a scene of so many other ships, and makes their ships.
+pub fn check_swarms(entries: &[SwarmEntry], others: usize) -> Result<Vec<ShipSpec>, Fault> {
+    let mut ships = Vec::new();
+    for (number, swarm) in entries.iter().enumerate() {
+        if entries[..number].iter().any(|other| other.name.get_ref() == swarm.name.get_ref()) {
+            return fault(&swarm.name, format!("name = {:?} is taken by an earlier swarm; names must differ", swarm.name.get_ref()));
+        }
+        ships.extend(swarm.check(MOST_SHIPS.saturating_sub(others + ships.len()))?);
+    }
+    Ok(ships)
 }
 
 /// φ⁵ = φ + 1. Multiples of (1/φ, 1/φ², 1/φ³, 1/φ⁴), without their whole parts, fill the cube of four dimensions evenly, however many are
@@ -45,7 +57,7 @@ impl SwarmEntry {
     }
 
     /// Its ships, checked; `room`: how many the scene may still have.
-    pub(super) fn check(&self, room: usize) -> Result<Vec<ShipSpec>, Fault> {
+    fn check(&self, room: usize) -> Result<Vec<ShipSpec>, Fault> {
         let name = self.name.get_ref();
         // A number is added to it.
         if !(1..=50).contains(&name.len()) || name.chars().any(|c| c == ',' || c == '"' || c.is_control()) {
@@ -72,7 +84,9 @@ impl SwarmEntry {
             let model = self.model.as_ref().map(|model| model.get_ref().clone());
             Ok(ShipSpec { model, ..ShipSpec::coasting(format!("{name} {number}"), state) })
         };
-        (1..=count).map(ship).collect::<Result<_, _>>().or_else(|error| fault(&self.radius, format!("radius: {error}")))
+        let nearest = Elements::circle(radius[0], 0.0).state();
+        let ships = nearest.and_then(|_| (1..=count).map(ship).collect());
+        ships.or_else(|error| fault(&self.radius, format!("radius: {error}")))
     }
 
     /// A least and a greatest number within a range.

@@ -212,10 +212,14 @@ fn complaints_name_file_line_key_and_range() {
             "[[swarm]]\nname = \"a\"\ncount = 700\nradius = [4.0, 9.0]\n[[swarm]]\nname = \"b\"\ncount = 301\nradius = [4.0, 9.0]\n",
             ["some/scene.toml:7:", "swarm[1].count", "301 must be from 1 to 300", "1000"],
         ),
+        (
+            "[[swarm]]\nname = \"a\"\ncount = 2\nradius = [4.0, 9.0]\n[[swarm]]\nname = \"a\"\ncount = 2\nradius = [4.0, 9.0]\n",
+            ["some/scene.toml:6:", "swarm[1].name", "\"a\"", "earlier swarm"],
+        ),
         ("[[swarm]]\nname = \"\"\ncount = 2\nradius = [4.0, 9.0]\n", ["some/scene.toml:2:", "swarm[0].name", "1 to 50", ""]),
         (
             "[[ship]]\nname = \"a 2\"\norbit = { radius = 5.0 }\n[[swarm]]\nname = \"a\"\ncount = 2\nradius = [4.0, 9.0]\n",
-            ["some/scene.toml:5:", "swarm[0].name", "\"a 2\"", "earlier ship"],
+            ["some/scene.toml:2:", "ship[0].name", "\"a 2\"", "taken by another ship"],
         ),
         ("[camera\n", ["some/scene.toml:1:", "", "", ""]),
         ("[camera]\nfollow = \"ghost\"\n", ["some/scene.toml:2:", "camera.follow", "ghost", "no ship"]),

@@ -1,8 +1,7 @@
 //! The picture of the chart `bodies`, from its sheets alone.
 
-use super::growth::points;
 use super::scenes::Kind;
-use super::{ALL, LARGEST, MEMORY, MISSING, TOGETHER};
+use super::sheet::{ALL, LARGEST, MEMORY, MISSING, ORDERS, TOGETHER, points};
 use crate::chart::{Provenance, Sheet};
 use crate::frame_times::parts::{PASS, PROCESSOR};
 use crate::plot::{Axis, Figure, Guide, Line, Lines, Panel};
@@ -22,7 +21,7 @@ const DRAWN: [[&str; 3]; 5] = [
 
 /// Times of held and of flying bodies, and memory.
 pub(super) fn figure(sheet: &Sheet, growth: &Sheet) -> Figure {
-    let orders = growth.note("image orders").and_then(|orders| orders.parse().ok()).unwrap_or(1.0);
+    let orders = sheet.note(ORDERS).and_then(|orders| orders.parse().ok()).unwrap_or(1.0);
     let times = |kind: Kind, title: &str, aim: f64| {
         let line = |[whose, part, name]: [&str; 3]| Line {
             name: name.into(),

@@ -1,7 +1,7 @@
 //! How a cost grows with the number of bodies: fitted to the upper half of the numbers, where what every frame costs counts less.
 
 use super::scenes::Kind;
-use super::{MEMORY, WHOLE};
+use super::sheet::{FIRST, MEMORY, MISSING, ORDERS, WHOLE, points};
 use crate::chart::{Sheet, mean};
 
 /// The columns of the sheet `bodies-growth`. `exponent`: the slope of the cost's logarithm over that of the number. The others: the slope
@@ -18,10 +18,10 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// Fits points (number, cost) in the order of their numbers; None where there are fewer than two in their upper half. Costs that are not
-    /// positive count as almost nothing.
+    /// Fits the upper half, at least two, of points (number, cost) in the order of their numbers; None where there are fewer. The exponent
+    /// takes what costs nothing as a millionth.
     pub fn of(points: &[[f64; 2]]) -> Option<Growth> {
-        let upper = &points[points.len() / 2..];
+        let upper = &points[(points.len() / 2).min(points.len().saturating_sub(2))..];
         let logarithms: Vec<[f64; 2]> = upper.iter().map(|point| point.map(|value| value.max(1e-6).ln())).collect();
         Some(Growth { exponent: slope(&logarithms)?, each: slope(upper)? })
     }
@@ -34,21 +34,15 @@ fn slope(points: &[[f64; 2]]) -> Option<f64> {
     (square > 0.0).then(|| along / square)
 }
 
-/// The points (number, `column`) of a part, as the sheet `bodies` has them.
-pub fn points(sheet: &Sheet, kind: &str, whose: &str, part: &str, column: &str) -> Vec<[f64; 2]> {
-    let rows = sheet.of([("kind", kind), ("whose", whose), ("part", part)]);
-    rows.map(|row| [sheet.number(row, "bodies"), sheet.number(row, column)]).collect()
-}
-
-/// The growth of every part; of times the medians are fitted. `orders`: image orders that are drawn.
-pub fn sheet(measured: &Sheet, orders: u32) -> Sheet {
+/// The growth of every part; of times the medians are fitted.
+pub fn sheet(measured: &Sheet) -> Sheet {
     let mut growth = Sheet::new(&COLUMNS);
     growth.notes.clone_from(&measured.notes);
-    growth.notes.push(("image orders".into(), orders.to_string()));
+    let orders = measured.note(ORDERS).and_then(|orders| orders.parse().ok()).unwrap_or(1.0);
     let mut parts: Vec<[&str; 2]> = Vec::new();
     for row in &measured.rows {
         let part = ["whose", "part"].map(|column| measured.text(row, column));
-        if !parts.contains(&part) && part != [WHOLE, "first frame"] {
+        if !parts.contains(&part) && part[0] != MISSING && part != [WHOLE, FIRST] {
             parts.push(part);
         }
     }
@@ -59,7 +53,7 @@ pub fn sheet(measured: &Sheet, orders: u32) -> Sheet {
             if whose == MEMORY {
                 growth.line(format_args!("{kind}|{whose}|{part}|{exponent:.3}|||{each:.1}"));
             } else {
-                let (each, order) = (1e3 * each, 1e3 * each / f64::from(orders));
+                let (each, order) = (1e3 * each, 1e3 * each / orders);
                 growth.line(format_args!("{kind}|{whose}|{part}|{exponent:.3}|{each:.4}|{order:.4}|"));
             }
         }

@@ -1,10 +1,11 @@
 //! How the time of a frame and the memory grow with the number of bodies, held ones and flying ones: `lensrunner-lab chart bodies`.
 //!
-//! [`scenes`] makes the scenes, [`growth`] fits what is measured of them.
+//! [`scenes`] makes the scenes, [`sheet`] has the columns of what is measured, [`growth`] fits it.
 
 mod draw;
 pub mod growth;
 pub mod scenes;
+pub mod sheet;
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -20,9 +21,10 @@ use lensrunner::sim::Moment;
 use crate::chart::{ChartError, Output, Sheet};
 use crate::frame_times::FrameTimes;
 use crate::frame_times::bench::Bench;
-use crate::frame_times::parts::{PASS, PROCESSOR, Spread};
+use crate::frame_times::parts::{PASS, PROCESSOR};
 use crate::say::say;
 use scenes::Kind;
+use sheet::{COLUMNS, MISSING, ORDERS};
 
 /// How the time of a frame grows with the bodies in it: held balls and flying ships, the processor's work and the passes apart.
 #[derive(Args, Clone, Debug)]
@@ -48,25 +50,10 @@ pub struct BodiesRequest {
     pub bound: u32,
 }
 
-/// The columns of the sheet `bodies`. Memory stands in the rows of whole frames.
-const COLUMNS: [&str; 8] = ["kind", "bodies", "whose", "part", "mean_ms", "median_ms", "worst_ms", "bytes"];
-/// Whose row is that of whole frames,
-pub const WHOLE: &str = "whole";
-/// that of the memory of a device: a part of it, and its bytes,
-pub const MEMORY: &str = "memory";
-/// and that of a number of bodies which was not measured: why, instead of a part.
-pub const MISSING: &str = "missing";
-/// The part of the rows that are sums over all parts of one kind.
-pub const TOGETHER: &str = "together";
-/// The part that is all memory of the device,
-pub const ALL: &str = "all";
-/// and that which is the largest buffer or texture alone.
-pub const LARGEST: &str = "largest";
-
 /// Measures (or reads) `bodies.csv`, fits `bodies-growth.csv`, draws `bodies.svg` and `bodies.png`; returns the files.
 pub fn run(request: &BodiesRequest) -> Result<Vec<PathBuf>, ChartError> {
     let sheet = request.output.growing_sheet::<ChartError>("bodies", |so_far| measure(request, so_far))?;
-    let growth = growth::sheet(&sheet, scene::config::find(None)?.render.orders);
+    let growth = growth::sheet(&sheet);
     let mut files = ["bodies", "bodies-growth"].map(|name| request.output.csv(name)).to_vec();
     growth.save(&files[1])?;
     files.extend(draw::figure(&sheet, &growth).save(&request.output.folder, "bodies")?);
@@ -79,7 +66,8 @@ fn measure(request: &BodiesRequest, so_far: &dyn Fn(&Sheet) -> Result<(), crate:
     let surroundings = surroundings();
     let [width, height] = request.size;
     let mut sheet = Sheet::measured(&COLUMNS, &Gpu::headless()?.adapter_name());
-    sheet.notes.push(("size".into(), format!("{width}x{height}, {} frames", request.frames)));
+    sheet.notes.push(("size".into(), format!("{width}x{height}")));
+    sheet.notes.push((ORDERS.into(), config.render.orders.to_string()));
     for (kind, numbers) in [(Kind::Held, &request.held), (Kind::Flying, &request.flying)] {
         let mut numbers = numbers.clone();
         numbers.sort_unstable();
@@ -94,15 +82,15 @@ fn measure(request: &BodiesRequest, so_far: &dyn Fn(&Sheet) -> Result<(), crate:
             match measured {
                 Ok(times) => {
                     say(told(kind, bodies, &times));
-                    write(&mut sheet, kind, bodies, &times);
+                    sheet::write(&mut sheet, kind, bodies, &times);
                     if seconds > f64::from(request.bound) {
                         stopped = Some(format!("left out: {bodies} took {seconds:.0} s"));
                     }
                 }
                 Err(reason) => {
                     say(format_args!("{bodies} {kind}: {reason}"));
-                    let cell = reason.replace('|', "/");
-                    sheet.line(format_args!("{kind}|{bodies}|{MISSING}|{cell}||||"));
+                    let words = reason.replace('|', "/").split_whitespace().collect::<Vec<_>>().join(" ");
+                    sheet.line(format_args!("{kind}|{bodies}|{MISSING}|{words}||||"));
                     stopped.get_or_insert(format!("left out: {bodies} were not drawn"));
                 }
             }
@@ -131,24 +119,4 @@ fn told(kind: Kind, bodies: u32, times: &FrameTimes) -> String {
     });
     let [whole, processor, passes] = [whole, processor, passes].map(|spread| spread.median);
     format!("{bodies} {kind}: frame {whole:.2} ms, processor {processor:.2}, passes {passes:.2}{memory}")
-}
-
-/// The rows of so many bodies.
-fn write(sheet: &mut Sheet, kind: Kind, bodies: u32, times: &FrameTimes) {
-    let mut row = |whose: &str, part: &str, Spread { mean, median, worst }: Spread| {
-        sheet.line(format_args!("{kind}|{bodies}|{whose}|{part}|{mean:.4}|{median:.4}|{worst:.4}|"));
-    };
-    row(WHOLE, "first frame", Spread::of(&[times.first]));
-    row(WHOLE, "frame", times.parts.whole());
-    for whose in [PROCESSOR, PASS] {
-        row(whose, TOGETHER, times.parts.together(whose));
-    }
-    for (whose, part, spread) in times.parts.spreads() {
-        row(whose, part, spread);
-    }
-    if let Some(memory) = &times.memory {
-        for (part, bytes) in [(ALL, memory.all), (LARGEST, memory.largest)] {
-            sheet.line(format_args!("{kind}|{bodies}|{MEMORY}|{part}||||{bytes}"));
-        }
-    }
 }
