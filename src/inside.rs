@@ -66,6 +66,7 @@ pub const FILES: &[Inside] = inside![
     "assets/scenes/parade.toml",
     "assets/scenes/plunge.toml",
     "assets/scenes/ring.toml",
+    "assets/scenes/swarm.toml",
     "assets/sky/milky-way.png",
     "assets/sky/stars.bin",
     "tables/default.lut",

@@ -8,7 +8,7 @@ use lensrunner::argument::whole;
 use lensrunner_lab::chart::{ChartError, Output, announce};
 use lensrunner_lab::projection::race::Race;
 use lensrunner_lab::{
-    aurora, bvh, dial, disk, drivers, flight, frame_times, hands_frames, motion, overlay_cost, projection, quarry, soak, steps,
+    aurora, bodies, bvh, dial, disk, drivers, flight, frame_times, hands_frames, motion, overlay_cost, projection, quarry, soak, steps,
     tessellation, thin_disk, window_rates,
 };
 
@@ -21,6 +21,7 @@ pub enum ChartCommand {
     Trace(thin_disk::ThinDiskRequest),
     Aurora(AuroraArgs),
     Bvh(bvh::BvhRequest),
+    Bodies(bodies::BodiesRequest),
     Frame(frame_times::FrameTimesRequest),
     Dial(dial::DialRequest),
     Disk(disk::request::DiskRequest),
@@ -69,6 +70,7 @@ pub fn run(chart: ChartCommand) -> ExitCode {
         ChartCommand::Trace(request) => thin_disk::run(request),
         ChartCommand::Aurora(args) => run_aurora(args),
         ChartCommand::Bvh(request) => bvh::run(request),
+        ChartCommand::Bodies(request) => bodies::run(request),
         ChartCommand::Frame(request) => frame_times::run(request),
         ChartCommand::Dial(request) => dial::run(request),
         ChartCommand::Disk(request) => disk::chart::run(request),

@@ -2,7 +2,7 @@
 //!
 //! - [`compare`]: the verdict on the game's picture, by the judge; [`contestant`] draws that picture.
 //! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`], [`flight`], [`tessellation`]: each a chart of error against time;
-//!   [`frame_times`] times whole frames, [`window_rates`] frames in a window.
+//!   [`frame_times`] times whole frames, [`bodies`] frames of more and more bodies, [`window_rates`] frames in a window.
 //! - [`dial`]: what each option of the quality costs and saves, and whether that predicts.
 //! - [`quarry`]: how long the game's quarry lasts beside blind ones.
 //! - [`steps`]: what a step of the simulation costs; [`overlay_cost`]: what the dev overlay costs the processor.
@@ -12,6 +12,7 @@
 //! - [`flip`]: the difference of two pictures as an eye sees it.
 
 pub mod aurora;
+pub mod bodies;
 pub mod bvh;
 pub mod chart;
 pub mod compare;

@@ -1,7 +1,10 @@
 //! All tests of the laboratory in one binary; the folders mirror `lab/src/`. What they share with those of the game is read from there.
 
 mod aurora;
+mod bodies;
 mod bvh;
+#[cfg(unix)]
+mod card;
 mod chart;
 mod command_line;
 mod compare;

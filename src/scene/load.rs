@@ -19,6 +19,7 @@ use super::planet::{Planet, PlanetEntry, SkyEntry, SkySwitches, check_planet, ch
 use super::prop::{Prop, PropEntry, check_props};
 use super::rules::{Rules, RulesEntry};
 use super::ship::{ShipEntry, ShipSpec, check_ships};
+use super::swarm::{SwarmEntry, check_swarms};
 use crate::game_files::{self, GameFile};
 use crate::user_file::{FileFault, MOST_TEXT};
 
@@ -34,7 +35,7 @@ pub struct Scene {
     pub name: String,
     /// From where it is seen.
     pub camera: SceneCamera,
-    /// The ships, in the order of the file.
+    /// The ships, in the order of the file, those of swarms last.
     pub ships: Vec<ShipSpec>,
     /// The things held in place.
     pub props: Vec<Prop>,
@@ -68,6 +69,8 @@ struct SceneFile {
     camera: Option<Spanned<CameraEntry>>,
     #[serde(default)]
     ship: Vec<Spanned<ShipEntry>>,
+    #[serde(default)]
+    swarm: Vec<SwarmEntry>,
     #[serde(default)]
     prop: Vec<Spanned<PropEntry>>,
     /// Read from the document, as its keys are those of `game.toml`; so is `difficulty`.
@@ -147,8 +150,9 @@ const MOST_NAME: usize = 1024;
 /// Refuses more models, and longer names, than are read.
 fn check_models(entry: &SceneFile) -> Result<(), Fault> {
     let ships = entry.ship.iter().filter_map(|ship| ship.get_ref().model());
+    let swarms = entry.swarm.iter().filter_map(SwarmEntry::model);
     let mut known = HashSet::new();
-    for model in ships.chain(entry.prop.iter().filter_map(|prop| prop.get_ref().file())) {
+    for model in ships.chain(swarms).chain(entry.prop.iter().filter_map(|prop| prop.get_ref().file())) {
         let length = model.get_ref().len();
         if !(1..=MOST_NAME).contains(&length) {
             return fault(model, format!("the model's name has {length} bytes, allowed 1 to {MOST_NAME}"));
@@ -163,7 +167,7 @@ fn check_models(entry: &SceneFile) -> Result<(), Fault> {
 
 fn check(entry: &SceneFile) -> Result<Scene, Fault> {
     check_models(entry)?;
-    let ships = check_ships(&entry.ship)?;
+    let ships = check_ships(&entry.ship, check_swarms(&entry.swarm, entry.ship.len())?)?;
     entry.rules.check(Rules::default())?;
     let planet = entry.planet.as_ref().map(check_planet).transpose()?;
     Ok(Scene {

@@ -22,6 +22,7 @@ pub mod prop;
 pub mod rules;
 pub mod ship;
 pub mod sky;
+pub mod swarm;
 
 pub use assembly::{Assembly, Body, Object};
 pub use camera::{Mount, SceneCamera, picture_size};

@@ -37,7 +37,7 @@ use crate::spacetime::matter::{SINGULARITY_RADIUS, ShipState};
 use crate::spacetime::orbit::{Elements, OrbitError};
 
 /// The farthest a ship may start, in r_s.
-const MAX_START_RADIUS: f64 = 1e6;
+pub(super) const MAX_START_RADIUS: f64 = 1e6;
 /// The largest starting momentum per mass, in c. Beyond it γ − βn·p loses the energy to rounding.
 pub const MAX_START_MOMENTUM: f64 = 1e6;
 /// The largest proper acceleration in a programme or of an engine, in c²/r_s.
@@ -208,21 +208,22 @@ struct BurnEntry {
 }
 
 /// The most ships of a scene.
-const MOST_SHIPS: usize = 1000;
+pub(super) const MOST_SHIPS: usize = 1000;
 
-/// Checks all ships of a scene: each by itself, names unique, targets known.
-pub fn check_ships(entries: &[Spanned<ShipEntry>]) -> Result<Vec<ShipSpec>, Fault> {
+/// Checks all ships of a scene: each by itself, names unique, targets known. Those of swarms, which are checked, come last.
+pub fn check_ships(entries: &[Spanned<ShipEntry>], swarms: Vec<ShipSpec>) -> Result<Vec<ShipSpec>, Fault> {
     if let Some(entry) = entries.get(MOST_SHIPS) {
         return Err(Fault { span: entry.span(), message: format!("{} ships, allowed are {MOST_SHIPS}", entries.len()) });
     }
     let mut ships: Vec<ShipSpec> = Vec::with_capacity(entries.len());
     for entry in entries {
         let ship = check_ship(entry)?;
-        if ships.iter().any(|other| other.name == ship.name) {
-            return fault(&entry.get_ref().name, format!("name = {:?} is taken by an earlier ship; names must differ", ship.name));
+        if ships.iter().chain(&swarms).any(|other| other.name == ship.name) {
+            return fault(&entry.get_ref().name, format!("name = {:?} is taken by another ship; names must differ", ship.name));
         }
         ships.push(ship);
     }
+    ships.extend(swarms);
     for entry in entries {
         let entry = entry.get_ref();
         let wrong =

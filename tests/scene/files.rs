@@ -15,7 +15,7 @@ fn complaint(text: &str) -> String {
 #[test]
 fn every_scene_loads_and_assembles_without_a_warning() {
     let names = names();
-    for wanted in ["chase", "parade", "galaxy", "galaxy-20000", "galaxy-axis", "galaxy-axis-edge", "galaxy-axis-vertex", "ring"] {
+    for wanted in ["chase", "parade", "galaxy", "galaxy-20000", "galaxy-axis", "galaxy-axis-edge", "galaxy-axis-vertex", "ring", "swarm"] {
         assert!(names.iter().any(|name| name == wanted), "{wanted} is missing from {names:?}");
     }
     for name in names {
@@ -91,6 +91,29 @@ fn a_lattice_leaves_the_hole_free() {
     let prop = &scene.props[0];
     assert!(prop.positions.iter().all(|position| position.length() - 0.5 * prop.size >= 1.2));
     assert!(prop.positions.iter().any(|position| position.length() < 2.0));
+}
+
+/// Every ship of a swarm is on its orbit, nose first; all of it is filled.
+#[test]
+fn a_swarm_is_spread_over_its_orbits() {
+    let text = "[[ship]]\nname = \"own\"\ntarget = \"drone 7\"\norbit = { radius = 6.0 }\n\
+                [[swarm]]\nname = \"drone\"\ncount = 300\nradius = [4.0, 9.0]\ninclination = [0.5, 2.5]\n";
+    let scene = Scene::from_toml(Path::new("a.toml"), text).unwrap();
+    assert_eq!((scene.ships.len(), scene.ships[7].name.as_str()), (301, "drone 7"));
+    let mut filled = [[0; 5]; 3];
+    for ship in &scene.ships[1..] {
+        let state = ship.state;
+        let [r, pole] = [state.position.length(), state.position.cross(state.momentum).normalize().z.acos()];
+        assert!((4.0..=9.0).contains(&r) && (0.5..=2.5).contains(&pole), "{ship:?}");
+        let circle = lensrunner::spacetime::orbit::circular_momentum(state.position, state.momentum).unwrap();
+        assert!(circle.distance(state.momentum) < 1e-12, "{ship:?}");
+        assert!((state.attitude * DVec3::NEG_Z).distance(state.momentum.normalize()) < 1e-12, "{ship:?}");
+        let azimuth = (state.position.y.atan2(state.position.x) / std::f64::consts::TAU).rem_euclid(1.0);
+        for (counts, share) in filled.iter_mut().zip([(r - 4.0) / 5.0, (pole - 0.5) / 2.0, azimuth]) {
+            counts[((5.0 * share) as usize).min(4)] += 1;
+        }
+    }
+    assert!(filled.iter().flatten().all(|count| (40..80).contains(count)), "{filled:?}");
 }
 
 #[test]
@@ -171,6 +194,33 @@ fn complaints_name_file_line_key_and_range() {
         ("[planet]\norbit_radius = 2.0\nradius = 0.5\n", ["some/scene.toml:2:", "planet.orbit_radius", "2", "r_s"]),
         ("[rules]\nhold_time = -1.0\n", ["some/scene.toml:2:", "rules.hold_time", "-1", "r_s/c"]),
         ("[sky]\nstars = 3\n", ["some/scene.toml:2:", "sky.stars", "true or false", "3"]),
+        (
+            "[[swarm]]\nname = \"a\"\ncount = 2\nradius = [9.0, 4.0]\n",
+            ["some/scene.toml:4:", "swarm[0].radius", "[9, 4]", "from 1.5 to 1000000 r_s"],
+        ),
+        (
+            "[[swarm]]\nname = \"a\"\ncount = 2\nradius = [1.5, 4.0]\n",
+            ["some/scene.toml:4:", "swarm[0].radius", "above 1.5 r_s", "not 1.5"],
+        ),
+        ("[[swarm]]\nname = \"a\"\ncount = 2\nradius = [4.0]\n", ["some/scene.toml:4:", "swarm[0].radius", "has 1 value", "2"]),
+        (
+            "[[swarm]]\nname = \"a\"\ncount = 2\nradius = [4.0, 9.0]\ninclination = [-0.1, nan]\n",
+            ["some/scene.toml:5:", "swarm[0].inclination", "[-0.1, NaN]", "from 0 to 3.14"],
+        ),
+        ("[[swarm]]\nname = \"a\"\ncount = 0\nradius = [4.0, 9.0]\n", ["some/scene.toml:3:", "swarm[0].count", "0 must be from 1", "1000"]),
+        (
+            "[[swarm]]\nname = \"a\"\ncount = 700\nradius = [4.0, 9.0]\n[[swarm]]\nname = \"b\"\ncount = 301\nradius = [4.0, 9.0]\n",
+            ["some/scene.toml:7:", "swarm[1].count", "301 must be from 1 to 300", "1000"],
+        ),
+        (
+            "[[swarm]]\nname = \"a\"\ncount = 2\nradius = [4.0, 9.0]\n[[swarm]]\nname = \"a\"\ncount = 2\nradius = [4.0, 9.0]\n",
+            ["some/scene.toml:6:", "swarm[1].name", "\"a\"", "earlier swarm"],
+        ),
+        ("[[swarm]]\nname = \"\"\ncount = 2\nradius = [4.0, 9.0]\n", ["some/scene.toml:2:", "swarm[0].name", "1 to 50", ""]),
+        (
+            "[[ship]]\nname = \"a 2\"\norbit = { radius = 5.0 }\n[[swarm]]\nname = \"a\"\ncount = 2\nradius = [4.0, 9.0]\n",
+            ["some/scene.toml:2:", "ship[0].name", "\"a 2\"", "taken by another ship"],
+        ),
         ("[camera\n", ["some/scene.toml:1:", "", "", ""]),
         ("[camera]\nfollow = \"ghost\"\n", ["some/scene.toml:2:", "camera.follow", "ghost", "no ship"]),
     ] {

@@ -12,7 +12,7 @@ use lensrunner::render::{Gpu, Renderer};
 use lensrunner::scene::{GameConfig, Scene};
 
 use super::parts::{PASS, PRESENTING, PROCESSOR, Part};
-use super::times::{FrameTimes, FrameTimesRequest};
+use super::times::{FrameTimes, Memory};
 use crate::offscreen::processor_time;
 
 /// The format of the picture.
@@ -23,11 +23,16 @@ const SETTLING: u32 = 24;
 const WARMING: u32 = 3;
 
 /// What all scenes are timed with.
-pub(super) struct Bench<'a> {
+pub(crate) struct Bench<'a> {
     pub gpu: Gpu,
-    pub surroundings: Surroundings,
-    pub request: &'a FrameTimesRequest,
+    pub surroundings: &'a Surroundings,
     pub config: &'a GameConfig,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Frames of each scene.
+    pub frames: u32,
+    /// Hold the aurora to its share of a frame.
+    pub rationed: bool,
 }
 
 /// A scene that is drawn.
@@ -52,9 +57,9 @@ impl Bench<'_> {
     /// the one before is done.
     pub fn time(&self, name: &str, scene: &Scene, mut moment: Moment) -> Result<FrameTimes, PictureError> {
         let mut stand = self.stand(scene);
-        let settling = WARMING + if self.request.rationed { SETTLING } else { 0 };
+        let settling = WARMING + if self.rationed { SETTLING } else { 0 };
         let mut times = FrameTimes::of(name);
-        for number in 0..self.request.frames + settling {
+        for number in 0..self.frames + settling {
             let start = (number == 0).then(Instant::now);
             let simulation = stand.advance(scene, &mut moment, 1);
             stand.frame(&moment, simulation, (number >= settling).then_some(&mut times))?;
@@ -91,7 +96,7 @@ impl Bench<'_> {
 
     fn stand(&self, scene: &Scene) -> Stand<'_> {
         let device = &self.gpu.device;
-        let size = self.request.size;
+        let size = self.size;
         let (picture, view) = target(device, "bench", size, FORMAT);
         let shown = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("shown"),
@@ -99,7 +104,7 @@ impl Bench<'_> {
             usage: wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let mut renderer = Renderer::new(&self.gpu, &self.surroundings, FORMAT, size);
+        let mut renderer = Renderer::new(&self.gpu, self.surroundings, FORMAT, size);
         // As in the window: splitting follows what earlier frames needed.
         renderer.set_counting(true);
         let stage = Stage::new(&mut renderer, scene, self.config).watched();
@@ -123,17 +128,16 @@ impl Stand<'_> {
 
     /// Draws one frame as it is played, and if it is timed once more pass by pass, and once more without bodies and aurora.
     fn frame(&mut self, moment: &Moment, simulation: f64, times: Option<&mut FrameTimes>) -> Result<(), PictureError> {
-        let request = self.bench.request;
         self.renderer.timing().set_counting(times.is_none());
         let spent = processor_time();
         let begin = Instant::now();
         let camera = self.stage.camera(moment.time(), &moment.ships());
         let settings = settings(self.bench.config);
-        let frame = self.stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings);
+        let frame = self.stage.frame(camera, self.bench.size, moment.time(), &moment.histories(), None, &settings);
         let placing = milliseconds(begin);
         let mut drawn = self.draw(&frame)?;
         let processor = spent.zip(processor_time()).map(|(then, now)| now - then);
-        if request.rationed {
+        if self.bench.rationed {
             self.stage.ration_aurora(self.renderer.timing().latest());
         }
         let Some(times) = times else { return Ok(()) };
@@ -163,7 +167,7 @@ impl Stand<'_> {
         let mut encoder = device.create_command_encoder(&Default::default());
         self.renderer.encode(&mut encoder, &self.view);
         let submitting = Instant::now();
-        let size = self.bench.request.size;
+        let size = self.bench.size;
         encoder.copy_texture_to_buffer(
             self.picture.as_image_copy(),
             wgpu::TexelCopyBufferInfo {
@@ -183,6 +187,7 @@ impl Stand<'_> {
 
     /// What is known once all frames are drawn.
     fn finish(&mut self, times: &mut FrameTimes) -> Result<(), PictureError> {
+        times.memory = self.bench.gpu.device.generate_allocator_report().map(|report| Memory::of(&report));
         times.fragments = self.renderer.timing().latest_fragments().to_vec();
         times.counters = self.renderer.counters()?;
         times.disk = self.renderer.disk_counters()?;

@@ -3,7 +3,7 @@
 //! What the processor does is timed in frames drawn as they are played; passes in a frame of the same moment that is submitted pass by pass
 //! ([`Steps`](lensrunner::render::gpu::steps::Steps)), since a software driver's timestamps miss its passes of compute.
 
-mod bench;
+pub(crate) mod bench;
 pub mod parts;
 mod times;
 
@@ -18,7 +18,7 @@ use lensrunner::render::shot::{ShotError, surroundings};
 use crate::chart::{ChartError, Sheet};
 use crate::say::say;
 use bench::Bench;
-pub use times::{FrameTimes, FrameTimesRequest};
+pub use times::{FrameTimes, FrameTimesRequest, Memory};
 
 /// The scene whose chase is flown by its pilots.
 const CHASE: &str = "chase";
@@ -38,9 +38,10 @@ pub fn run(request: &FrameTimesRequest) -> Result<Vec<PathBuf>, ChartError> {
         Ok((scene, moment))
     };
     let scenes: Vec<_> = request.scenes.iter().map(played).collect::<Result<_, _>>()?;
-    let bench = Bench { gpu: Gpu::headless()?, surroundings: surroundings(), request, config };
-    let [width, height] = request.size;
-    say(format_args!("{}, {width}x{height}, {} frames", bench.gpu.adapter.name, request.frames));
+    let FrameTimesRequest { size, frames, rationed, .. } = *request;
+    let bench = Bench { gpu: Gpu::headless()?, surroundings: &surroundings(), config, size, frames, rationed };
+    let [width, height] = size;
+    say(format_args!("{}, {width}x{height}, {frames} frames", bench.gpu.adapter.name));
     let mut sheet = Sheet::measured(&COLUMNS, &bench.gpu.adapter_name());
     sheet.notes.push(("size".into(), format!("{width}x{height}")));
     for (name, (scene, moment)) in request.scenes.iter().zip(scenes) {

@@ -73,6 +73,13 @@ impl Parts {
         self.parts.iter().map(|(whose, name, times)| (*whose, *name, Spread::of(times)))
     }
 
+    /// All parts of one kind in each frame added up.
+    pub fn together(&self, whose: &str) -> Spread {
+        let of_it = || self.parts.iter().filter(|part| part.0 == whose);
+        let frames: Vec<f64> = (0..self.whole.len()).map(|frame| of_it().map(|part| part.2[frame]).sum()).collect();
+        Spread::of(&frames)
+    }
+
     /// The mean time that is in no part: negative where the parts, measured one by one, take longer together than the whole.
     pub fn in_no_part(&self) -> f64 {
         self.whole().mean - self.spreads().map(|(.., spread)| spread.mean).sum::<f64>()
@@ -98,6 +105,9 @@ mod tests {
         let found: Vec<_> = parts.spreads().map(|(_, name, spread)| (name, spread.mean, spread.worst)).collect();
         assert_eq!(found, [("encoding", 2.0, 3.0), ("bloom", 2.5, 5.0), ("thin", 6.0, 12.0)]);
         assert_eq!(parts.whole(), Spread { mean: 15.0, median: 15.0, worst: 20.0 });
+        // 5 and 12 of passes.
+        assert_eq!(parts.together(PASS), Spread { mean: 8.5, median: 8.5, worst: 12.0 });
+        assert_eq!(parts.together(PRESENTING), Spread::default());
         assert_eq!(parts.in_no_part(), 4.5);
         assert_eq!(parts.sum(&["bl", "thin"]), 8.5);
     }

@@ -9,7 +9,7 @@ use lensrunner::render::disk::types::DiskCounters;
 use lensrunner::render::gpu::types::Counters;
 use lensrunner::scene;
 
-use super::parts::{Parts, Spread};
+use super::parts::{PROCESSOR, Parts, Spread};
 use crate::chart::{DEFAULT_FOLDER, Sheet};
 
 /// Times whole frames of scenes and of the chase from start to end, and every part of them.
@@ -39,6 +39,8 @@ pub struct FrameTimesRequest {
     pub flight: u32,
 }
 
+/// All that the processor does for a frame.
+const TOGETHER: &str = "processor together";
 /// Passes after the picture in linear light is drawn.
 const AFTERWARDS: [&str; 5] = ["bloom", "exposure", "flashes", "tone map", "smooth"];
 
@@ -58,6 +60,8 @@ pub struct FrameTimes {
     pub processor: Vec<f64>,
     /// T of each frame of a flight, in r_s/c.
     pub moments: Vec<f64>,
+    /// What the device has allocated, where its driver's allocator tells it.
+    pub memory: Option<Memory>,
     /// Fragments that passes shaded, where the GPU counts them.
     pub fragments: Vec<(&'static str, u64)>,
     /// What the stages of the geometry counted in the last frame.
@@ -66,6 +70,26 @@ pub struct FrameTimes {
     pub disk: Option<DiskCounters>,
     /// Strokes of the aurora in it, by level of the pyramid.
     pub strokes: Option<Vec<u32>>,
+}
+
+/// Memory of a device, in bytes.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Memory {
+    /// Of all buffers and textures.
+    pub all: u64,
+    /// Of the largest of them.
+    pub largest: u64,
+    /// Its label.
+    pub label: String,
+}
+
+impl Memory {
+    /// What a device's allocator reports.
+    pub(super) fn of(report: &wgpu::AllocatorReport) -> Memory {
+        let largest = report.allocations.iter().max_by_key(|allocation| allocation.size);
+        let (largest, label) = largest.map_or((0, ""), |allocation| (allocation.size, allocation.name.as_str()));
+        Memory { all: report.total_allocated_bytes, largest, label: label.to_owned() }
+    }
 }
 
 impl FrameTimes {
@@ -90,6 +114,7 @@ impl FrameTimes {
         row("whole", "frame", self.parts.whole());
         row("whole", "without bodies and aurora", Spread::of(&self.alone));
         row("whole", "processor time of all threads", Spread::of(&self.processor));
+        row("whole", TOGETHER, self.parts.together(PROCESSOR));
         for (whose, name, spread) in self.parts.spreads() {
             row(whose, name, spread);
         }
@@ -106,6 +131,8 @@ impl fmt::Display for FrameTimes {
             write!(f, "; {:.0} of processor time", Spread::of(&self.processor).median)?;
         }
         write!(f, "; {:.2} times as long as without bodies and aurora)", self.ratio())?;
+        let Spread { mean: together, median, worst } = self.parts.together(PROCESSOR);
+        write!(f, "\n  {TOGETHER}: mean {together:.2} ms, median {median:.2}, worst {worst:.2}, {:.2} times the mean", worst / together)?;
         for (whose, label, Spread { mean, median, worst }) in self.parts.spreads() {
             write!(f, "\n  {whose:<10} {label:<20} mean {mean:7.2} ms, median {median:7.2}, worst {worst:7.2}")?;
             if let Some((_, count)) = self.fragments.iter().find(|(known, _)| *known == label) {
