@@ -6,7 +6,7 @@ use glam::{DMat3, DMat4, DVec2, DVec3};
 use crate::render::aurora::animation::streaks::RowPlaces;
 use crate::render::aurora::{BOTH_POLES, Segment};
 use crate::render::instances::InstanceView;
-use crate::scene::aurora::dipole::{REFERENCE_HEIGHT, on_field_line};
+use crate::scene::aurora::dipole::on_field_line;
 use crate::scene::aurora::lines::{self, Line};
 use crate::sim::History;
 use crate::spacetime::light::Order;

@@ -457,8 +457,8 @@ impl AuroraAnimation {
         Some(ground.frame(self.maps.insert(maps), &view))
     }
 
-    /// The colours of the lines in an image of the planet, whose light left it at T = `began`, Doppler shifted and beamed as the settings say, times `part` of their
-    /// brightness.
+    /// The colours of the lines in an image of the planet, whose light left it at T = `began`, Doppler shifted and beamed as the settings
+    /// say, times `part` of their brightness.
     fn colours(&self, globe: &PlanetView, order: Order, began: f64, part: f64) -> Colours {
         let view = globe.view;
         let even = || ImageShift::even(globe.frequency_ratio(order, began).unwrap_or(1.0).clamp(0.2, 5.0));

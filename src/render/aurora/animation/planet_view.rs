@@ -115,9 +115,9 @@ impl<'a> PlanetView<'a> {
         (u * u + 2.0) / (u * (u * u + 4.0).sqrt())
     }
 
-    /// ν_observed/ν_emitted for the centre, in an image whose light left it at T = `emission`: the ratio of proper times between two wave crests, from the light path's
-    /// derivatives along both worldlines. Where light is drawn straight it is that of special relativity against what hovers, as for all
-    /// else.
+    /// ν_observed/ν_emitted for the centre, in an image whose light left it at T = `emission`: the ratio of proper times between two wave
+    /// crests, from the light path's derivatives along both worldlines. Where light is drawn straight it is that of special relativity
+    /// against what hovers, as for all else.
     pub fn frequency_ratio(&self, order: Order, emission: f64) -> Option<f64> {
         let camera = self.view.camera;
         let emitted = self.history.at(emission);
