@@ -18,8 +18,9 @@ const MOST: usize = 16;
 /// evenly spread.
 const NEAREST: usize = 6;
 const OTHERS: usize = 16;
-/// Steps of the search for the emission time of a streak. Each step reduces the error to a third or less.
-const SEARCH: u32 = 4;
+/// Steps of the search for the emission time of a streak. Each step reduces the error to a third or less, and all of a streak is tested at
+/// one time: a tenth of the light's way through the planet is near enough.
+const SEARCH: u32 = 2;
 /// Largest error of a chord's middle: this share of the whole length, of which the luminous one is half, or this many pixels, whichever is
 /// more. (The ends of the light may be off by 1 % of the luminous length and half a pixel.)
 const OF_LENGTH: f64 = 0.005;
@@ -126,23 +127,22 @@ impl ChordInputs<'_, '_> {
 
     /// Whether with chords between these heights every middle lies where its light is seen. Chords that are not seen count as right.
     fn hold(&self, heights: &[Vec<Height>; 2], order: Order, began: f64, place: impl Fn(Height) -> DVec3, to_camera: &DMat4) -> bool {
+        let Some(low) = heights[0].last().map(|height| place(*height)) else { return true };
+        let mut emission = began;
+        for _ in 0..if self.view.settings.light_delay { SEARCH } else { 0 } {
+            let Some((_, path)) = self.view.look(self.globe(emission).place(low), order, self.time - emission) else { return true };
+            emission = self.time - path;
+        }
+        let globe = self.globe(emission);
         heights.iter().zip(self.tops).all(|(heights, top)| {
-            let last = heights.len() - 1;
-            let low = place(heights[last]);
-            let mut emission = began;
-            for _ in 0..if self.view.settings.light_delay { SEARCH } else { 0 } {
-                let Some((_, path)) = self.view.look(self.globe(emission).place(low), order, self.time - emission) else { return true };
-                emission = self.time - path;
-            }
-            let globe = self.globe(emission);
             let mut seen = [DVec3::ZERO; 4 * MOST + 1];
             for (seen, height) in seen.iter_mut().zip(heights) {
                 let Some((look, path)) = self.view.look(globe.place(place(*height)), order, self.time - emission) else { return true };
                 // As in shaders/geometry/project.wgsl.
                 *seen = (*to_camera * (look * path).extend(-path)).truncate();
             }
-            let seen = &seen[..=last];
-            let allowed = (OF_LENGTH * seen[0].angle_between(seen[last])).max(PIXELS * self.view.pixel);
+            let seen = &seen[..heights.len()];
+            let allowed = (OF_LENGTH * seen[0].angle_between(seen[seen.len() - 1])).max(PIXELS * self.view.pixel);
             let mut middles = seen.windows(3).step_by(2).zip(heights.iter().skip(1).step_by(2)).filter(|(_, [height, _])| *height <= top);
             middles.all(|(chord, _)| (0.5 * (chord[0] + chord[2])).angle_between(chord[1]) <= allowed)
         })
