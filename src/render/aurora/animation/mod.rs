@@ -1,5 +1,5 @@
-//! The aurora of a scene over time: simulates its curtains and decides for each frame how many streaks are drawn where (`streaks`), with
-//! how many chords (`chords`).
+//! The aurora of a scene over time: simulates its curtains, in real time beside the frames (`next_row`), and decides for each frame how
+//! many streaks are drawn where (`streaks`), with how many chords (`chords`).
 
 mod chords;
 mod next_row;
