@@ -18,7 +18,7 @@ use crate::spacetime::orbit::static_momentum;
 
 use crate::lensing::methods::{self, flat};
 use crate::render::Renderer;
-use crate::render::aurora::{AuroraAnimation, AuroraFrame, planet_history};
+use crate::render::aurora::{AuroraAnimation, AuroraFrame, PlanetLine};
 use crate::render::disk::DrawnDisk;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::types::placed::OWN;
@@ -31,7 +31,7 @@ use crate::render::renderer::SceneUpload;
 use crate::render::settings::Settings;
 
 /// A scene's objects, ready to be placed.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Stage {
     objects: Vec<(scene::Object, LevelsOfDetail)>,
     /// Farthest vertex of each object from its centre, in r_s.
@@ -43,6 +43,8 @@ pub struct Stage {
     /// For each ship of the scene: whether it flees, and its greatest thrust (c²/r_s) if the scene gives it.
     engines: Vec<(bool, Option<f64>)>,
     planet: Option<Planet>,
+    /// The planet's worldline.
+    globe: PlanetLine,
     /// Inner and outer radius of the disk.
     disk: Option<[f64; 2]>,
     /// What of a stage goes on from frame to frame: the aurora of the planet, if it has one.
@@ -127,6 +129,7 @@ impl Stage {
             lights: Lights::of(scene, config),
             engines: scene.ships.iter().map(|ship| (ship.ai == Ai::Flee && !ship.player, ship.max_thrust)).collect(),
             planet: scene.planet,
+            globe: PlanetLine::default(),
             disk,
             animation: scene.planet.as_ref().and_then(|planet| AuroraAnimation::new(planet, disk, &config.aurora)),
         };
@@ -189,7 +192,8 @@ impl Stage {
         let view = InstanceView { camera: &camera, slice: &slice, pixel, aspect, settings };
         // Light of the higher orders goes once round the hole.
         let back = self.planet.as_ref().map_or(0.0, |planet| 1.5 * (camera.radius() + planet.orbit.semi_latus_rectum) + 60.0);
-        let globe = self.planet.as_ref().and_then(|planet| planet_history(planet, time, back, DQuat::IDENTITY));
+        let mut line = std::mem::take(&mut self.globe);
+        let globe = self.planet.as_ref().and_then(|planet| line.about(planet, time, back));
         let mut placed = Vec::new();
         let mut unmetered = [0.0; 3];
         for (number, (object, model)) in self.objects.iter().enumerate() {
@@ -200,7 +204,7 @@ impl Stage {
             if ship.is_some() && ship == hidden {
                 continue;
             }
-            let line = self.worldline(&object.body, histories, globe.as_ref());
+            let line = self.worldline(&object.body, histories, globe);
             let Some((motion, position)) = motion(&object.body, time, line) else { continue };
             let object = DrawnObject {
                 model: model.model,
@@ -224,6 +228,7 @@ impl Stage {
             }
             placed.append(&mut images);
         }
+        self.globe = line;
         let aurora = self.aurora(&view, time, back);
         FrameInput { camera, time, placed, aurora, settings: Settings { unmetered, ..self.with_sky(settings) } }
     }

@@ -7,12 +7,12 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DQuat, DVec2, Mat3};
 use half::f16;
 
-use crate::render::aurora::node_history::{NodeHistory, NodeRow, place};
+use crate::render::aurora::node_history::{NodeRow, place};
 use crate::scene::aurora::curve::Curve;
 use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT};
 use crate::scene::aurora::ground::GroundMap;
 use crate::scene::aurora::lines::kilorayleigh_xyz;
-use crate::scene::aurora::motion::AuroraMotion;
+use crate::scene::aurora::motion::NodeLayout;
 use crate::scene::aurora::quantiles::{FLUXES, KINDS, PARTS, Quantiles, ROWS};
 use crate::scene::blackbody::xyz_to_rgb;
 
@@ -102,62 +102,79 @@ fn row_of(flux: f64) -> f64 {
     row.min((ROWS - 1) as f64 - 1e-9)
 }
 
-/// How far midnight may turn before the map of a row is made anew, as a share of the brightness that it adds: about three degrees.
+/// How far midnight may turn before maps are made anew, as a share of the brightness that it adds: about three degrees.
 const TURNED: f64 = 0.03;
 
-/// The map of a row.
+/// The light by the newest row of the history, and by the one before.
 #[derive(Clone, Debug)]
-struct Kept {
-    row: NodeRow,
-    /// The midnight for which it was made.
-    midnight: DVec2,
-    light: Arc<Vec<f32>>,
+pub struct GroundMaps {
+    rows: [NodeRow; 2],
+    /// The midnight for which each map was made.
+    midnights: [DVec2; 2],
+    lights: [Arc<Vec<f32>>; 2],
+    /// Both in half precision.
+    texels: Arc<Vec<[u16; 2]>>,
 }
 
-impl Kept {
-    /// Whether it is still the map of `row`.
-    fn serves(&self, row: &NodeRow, midnight: DVec2) -> bool {
-        Arc::ptr_eq(&self.row, row) && self.midnight.distance(midnight) < TURNED
+impl GroundMaps {
+    /// Whether they are still those of these rows, seen `older` of the way from the newest to the one before.
+    pub fn serve(&self, rows: [&NodeRow; 2], midnight: DVec2, older: f64) -> bool {
+        let [newest, before] = self.midnights;
+        let same = self.rows.iter().zip(rows).all(|(own, row)| Arc::ptr_eq(own, row));
+        same && newest.lerp(before, older).distance(midnight) < TURNED
+    }
+
+    /// The light by the newest row and by the one before, in half precision, row by row.
+    pub fn texels(&self) -> &Arc<Vec<[u16; 2]>> {
+        &self.texels
+    }
+
+    /// The midnight for which the map of this row was made, and the map, if that is near `midnight`.
+    fn of_row(&self, row: &NodeRow, midnight: DVec2) -> Option<(DVec2, Arc<Vec<f32>>)> {
+        let serves = |k: &usize| Arc::ptr_eq(&self.rows[*k], row) && self.midnights[*k].distance(midnight) < TURNED;
+        [0, 1].into_iter().find(serves).map(|k| (self.midnights[k], self.lights[k].clone()))
     }
 }
 
-/// The maps of a planet's curtains.
-#[derive(Clone, Debug)]
+/// Makes the maps of a planet's curtains.
+#[derive(Debug)]
 pub struct Ground {
     glow: Glow,
     map: GroundMap,
     /// For each node of a row the area of curtain that it stands for, in km².
     areas: Vec<f64>,
-    /// Maps of the newest row and the one before, and both as texels.
-    kept: [Option<Kept>; 2],
-    texels: Arc<Vec<[u16; 2]>>,
+}
+
+/// How the ground is lit in a frame.
+#[derive(Clone, Copy, Debug)]
+pub struct GroundView {
+    /// How far the newest row is ahead of the time that is seen, as a share of the time between rows.
+    pub ahead: f64,
+    /// Thousands of collisions a cm² and second in a curtain, times the value of a unit of luminance in the picture.
+    pub kilo: f64,
+    /// From the dipole's axes to the model's.
+    pub dipole: DQuat,
+    /// Whether there are curtains at both poles.
+    pub both: bool,
 }
 
 impl Ground {
     /// For curtains that move about these curves.
-    pub fn new(curves: &[Curve], motion: &AuroraMotion, glow: Glow) -> Ground {
-        Ground { map: GroundMap::new(curves, glow.height), areas: areas(curves, motion), glow, kept: [None, None], texels: Arc::default() }
+    pub fn new(curves: &[Curve], layout: &NodeLayout, glow: Glow) -> Ground {
+        Ground { map: GroundMap::new(curves, glow.height), areas: areas(curves, layout), glow }
     }
 
-    /// Makes the maps of the two newest rows, unless they are there already. `midnight` points to magnetic midnight; its length is by how
-    /// much an oval is brighter there.
-    fn follow(&mut self, rows: &NodeHistory, midnight: DVec2) {
-        let wanted = [0, 1].map(|ago| rows.row(ago));
-        let [Some(newest), Some(before)] = wanted else { return };
-        let serves = |kept: &Option<Kept>, row: &NodeRow| kept.as_ref().is_some_and(|kept| kept.serves(row, midnight));
-        if serves(&self.kept[0], newest) && serves(&self.kept[1], before) {
-            return;
-        }
-        let old = self.kept.clone();
-        for (k, row) in [newest, before].into_iter().enumerate() {
-            let made = old.iter().chain(&self.kept[..k]).flatten().find(|kept| kept.serves(row, midnight)).cloned();
-            let make = || Kept { row: row.clone(), midnight, light: Arc::new(self.light(row, midnight)) };
-            self.kept[k] = Some(made.unwrap_or_else(make));
-        }
-        if let [Some(newest), Some(before)] = &self.kept {
-            let both = newest.light.iter().zip(before.light.iter());
-            self.texels = Arc::new(both.map(|(a, b)| [a, b].map(|light| f16::from_f32(*light).to_bits())).collect());
-        }
+    /// The maps of the newest row and the one before, as far as they are not among `old` ones. Each `midnight` points to magnetic midnight;
+    /// its length is by how much an oval is brighter there.
+    pub fn maps(&self, rows: [&NodeRow; 2], midnights: [DVec2; 2], old: Option<&GroundMaps>) -> GroundMaps {
+        let make = |k: usize| (midnights[k], Arc::new(self.light(rows[k], midnights[k])));
+        let kept = |k: usize| old.and_then(|old| old.of_row(rows[k], midnights[k]));
+        let newest = kept(0).unwrap_or_else(|| make(0));
+        // At the start both are one row.
+        let before = if Arc::ptr_eq(rows[0], rows[1]) { newest.clone() } else { kept(1).unwrap_or_else(|| make(1)) };
+        let half = |light: &f32| f16::from_f32(*light).to_bits();
+        let texels = newest.1.iter().zip(before.1.iter()).map(|(a, b)| [half(a), half(b)]).collect();
+        GroundMaps { rows: rows.map(Arc::clone), midnights: [newest.0, before.0], lights: [newest.1, before.1], texels: Arc::new(texels) }
     }
 
     fn light(&self, row: &NodeRow, midnight: DVec2) -> Vec<f32> {
@@ -169,38 +186,35 @@ impl Ground {
         }))
     }
 
-    /// The light for a frame. `ahead` is how far the newest row is ahead of the time that is seen, as a share of the time between rows.
-    /// `kilo` is the thousands of collisions a cm² and second in a curtain, times the value of a unit of luminance in the picture. `dipole`
-    /// turns the dipole's axes into the model's. `both`: at both poles.
-    pub fn frame(&mut self, rows: &NodeHistory, ahead: f64, midnight: DVec2, kilo: f64, dipole: DQuat, both: bool) -> GroundFrame {
-        self.follow(rows, midnight);
+    /// The light of these maps in a frame.
+    pub fn frame(&self, maps: &GroundMaps, view: &GroundView) -> GroundFrame {
         let (corner, side) = self.map.square();
-        let [dipole_x, dipole_y, dipole_z] = Mat3::from_quat(dipole.inverse().as_quat()).to_cols_array_2d();
+        let [dipole_x, dipole_y, dipole_z] = Mat3::from_quat(view.dipole.inverse().as_quat()).to_cols_array_2d();
         GroundFrame {
             light: GroundLight {
                 dipole_x,
                 planet: 0,
                 dipole_y,
-                both_poles: u32::from(both),
+                both_poles: u32::from(view.both),
                 dipole_z,
                 per_radian: ((PLANET_RADIUS + REFERENCE_HEIGHT) / side) as f32,
-                colour: self.glow.colour(kilo).map(|x| x as f32),
-                older: ahead.clamp(0.0, 1.0) as f32,
+                colour: self.glow.colour(view.kilo).map(|x| x as f32),
+                older: view.ahead.clamp(0.0, 1.0) as f32,
                 pole: [-corner.x / side, -corner.y / side].map(|x| x as f32),
                 half_texel: 0.5 / self.map.size() as f32,
                 unused: 0.0,
             },
             size: self.map.size() as u32,
-            texels: self.texels.clone(),
+            texels: maps.texels.clone(),
         }
     }
 }
 
 /// For each node of a row the area of curtain that it stands for, in km²: its share of the length at rest, half as much at the ends of a
 /// curve. The extra nodes beyond the ends stand for none.
-fn areas(curves: &[Curve], motion: &AuroraMotion) -> Vec<f64> {
+fn areas(curves: &[Curve], layout: &NodeLayout) -> Vec<f64> {
     let mut areas = Vec::new();
-    for ((window, curve), length) in motion.starts().windows(2).zip(curves).zip(motion.lengths()) {
+    for ((window, curve), length) in layout.starts.windows(2).zip(curves).zip(&layout.lengths) {
         let nodes = window[1] - window[0];
         let share = length / (nodes - 1).max(1) as f64 * curve.width;
         let ends = |k: usize| if k == 0 || k + 1 == nodes { 0.5 } else { 1.0 };

@@ -16,7 +16,7 @@ pub mod ration;
 pub mod shift;
 pub mod sight;
 
-pub use animation::planet_view::planet_history;
+pub use animation::planet_view::PlanetLine;
 pub use animation::streaks::{RED_EVERY, SMOOTH};
 pub use animation::{AuroraAnimation, AuroraFrame, RAYS_PERIOD};
 pub use colours::Colours;

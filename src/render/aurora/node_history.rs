@@ -20,21 +20,21 @@ pub type NodeRow = Arc<Vec<CurtainNode>>;
 #[derive(Clone, Debug, Default)]
 pub struct NodeHistory {
     /// By slot. From the newest on, each row is older than the one before, round the ring.
-    slots: Vec<NodeRow>,
+    slots: Arc<Vec<NodeRow>>,
     newest: usize,
 }
 
 impl NodeHistory {
     /// A past in which nothing happened: all rows are this one.
-    pub fn still(nodes: impl Iterator<Item = Node>) -> NodeHistory {
-        NodeHistory { slots: vec![row(nodes); ROWS], newest: 0 }
+    pub fn still(row: NodeRow) -> NodeHistory {
+        NodeHistory { slots: Arc::new(vec![row; ROWS]), newest: 0 }
     }
 
     /// Adds a row in place of the oldest.
-    pub fn push(&mut self, nodes: impl Iterator<Item = Node>) {
+    pub fn push(&mut self, row: NodeRow) {
         self.newest = (self.newest + ROWS - 1) % ROWS;
-        if let Some(slot) = self.slots.get_mut(self.newest) {
-            *slot = row(nodes);
+        if let Some(slot) = Arc::make_mut(&mut self.slots).get_mut(self.newest) {
+            *slot = row;
         }
     }
 
@@ -81,7 +81,8 @@ impl NodeHistory {
     }
 }
 
-fn row(nodes: impl Iterator<Item = Node>) -> NodeRow {
+/// A row of these nodes.
+pub fn row(nodes: impl Iterator<Item = Node>) -> NodeRow {
     let told =
         |Node { place, flux, along }: Node| CurtainNode { place: place.as_vec2().to_array(), flux: flux as f32, along: along as f32 };
     Arc::new(nodes.map(told).collect())

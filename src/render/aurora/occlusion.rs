@@ -4,7 +4,7 @@
 use crate::spacetime::Observer;
 use glam::DVec3;
 
-use crate::spacetime::light::{self, Branch, Order};
+use crate::spacetime::light::{Branch, Order, join};
 
 /// Steps of the integration, in radians: the radius at which light crosses the plane is right to a millionth.
 const STEP: f64 = 0.02;
@@ -20,7 +20,7 @@ pub fn crossings(camera: &Observer, position: DVec3, order: Order, bends: bool) 
     let across = position - n * position.dot(n);
     let side = across.try_normalize().unwrap_or_else(|| n.any_orthonormal_vector()) * if order.flips() { -1.0 } else { 1.0 };
     let swept = order.swept(across.length().atan2(position.dot(n)).max(1e-12));
-    let Some(ray) = light::connect(1.0 / r, swept, 1.0 / l, Branch::Plus) else { return Vec::new() };
+    let Some(ray) = join(1.0 / r, swept, 1.0 / l, Branch::Plus) else { return Vec::new() };
     // The ray is at the angle Φ in the direction n cos Φ + side sin Φ; followed backwards from the camera: u″ = 3u²/2 − u.
     let height = |angle: f64| n.z * angle.cos() + side.z * angle.sin();
     let steps = (swept / STEP).ceil().max(1.0);
@@ -28,6 +28,7 @@ pub fn crossings(camera: &Observer, position: DVec3, order: Order, bends: bool) 
     let force = |u: f64| 1.5 * u * u - u;
     let (mut u, mut slope) = (1.0 / l, ray.slope);
     let mut found = Vec::new();
+    let mut low = height(0.0);
     for k in 0..steps as u32 {
         let before = u;
         let (a, b) = (slope, force(u));
@@ -36,11 +37,12 @@ pub fn crossings(camera: &Observer, position: DVec3, order: Order, bends: bool) 
         let (g, h) = (slope + step * f, force(u + step * e));
         u += step / 6.0 * (a + 2.0 * c + 2.0 * e + g);
         slope += step / 6.0 * (b + 2.0 * d + 2.0 * f + h);
-        let (low, high) = (height(f64::from(k) * step), height(f64::from(k + 1) * step));
+        let high = height(f64::from(k + 1) * step);
         if low * high < 0.0 {
             let part = low / (low - high);
             found.push(1.0 / (before + (u - before) * part));
         }
+        low = high;
     }
     found
 }

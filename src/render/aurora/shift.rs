@@ -4,7 +4,7 @@
 use crate::spacetime::Observer;
 use glam::{DMat3, DVec2, DVec3, Vec3Swizzles};
 
-use crate::render::instances::{InstanceView, departure};
+use crate::render::instances::InstanceView;
 use crate::sim::History;
 use crate::sim::history::Sample;
 use crate::spacetime::light::{self, Branch, Order};
@@ -45,14 +45,15 @@ impl ImageShift {
         ImageShift { middle: g, slope: DVec2::ZERO, range: [g, g] }
     }
 
-    /// For the image of `order` of a planet with this radius (r_s) and history, fitted to points all over its visible part. None if too few
-    /// are seen. If neither colour nor brightness depend on the ratio, it is 1 everywhere.
-    pub fn new(view: &InstanceView, time: f64, history: &History, order: Order, radius: f64) -> Option<ImageShift> {
+    /// For the image of `order` of a planet with this radius (r_s) and history, fitted to points all over its visible part; `time` are T of
+    /// the light from its centre, as it leaves and as it is seen. None if too few are seen. If neither colour nor brightness depend on the
+    /// ratio, it is 1 everywhere.
+    pub fn new(view: &InstanceView, [began, time]: [f64; 2], history: &History, order: Order, radius: f64) -> Option<ImageShift> {
         if !view.settings.doppler && !view.settings.beaming {
             return Some(ImageShift::even(1.0));
         }
         let aspect = view.aspect.filter(|_| view.settings.method.bends)?;
-        let mut began = departure(view, time, history, order)?.time;
+        let mut began = began;
         let away = view.camera.position - history.at(began).position;
         let near = away.length() < NEAR * radius;
         if near && view.settings.light_delay {
@@ -63,11 +64,13 @@ impl ImageShift {
         let seen: Vec<(DVec2, f64)> = places
             .iter()
             .filter_map(|place| {
-                // The position at the emission time of its own light. Each step reduces the error to the planet's speed over c, a third or
-                // less.
+                // The position at the emission time of its own light, by the table's delays. Each step reduces the error to the planet's
+                // speed over c, a third or less.
                 let mut emission = began;
                 for _ in 0..if view.settings.light_delay { SEARCH } else { 0 } {
-                    emission = time - RayEnds::new(view.camera, moving(history, emission, *place * (HEIGHT * radius)).0, order)?.delay;
+                    let planet = history.at(emission);
+                    let position = planet.position + planet.attitude * *place * (HEIGHT * radius);
+                    emission = time - view.look(position, order, time - emission)?.1;
                 }
                 let body = moving(history, emission, *place * (HEIGHT * radius));
                 let (position, velocity) = body;
@@ -100,8 +103,6 @@ struct RayEnds {
     /// Momentum of the photon at the camera and at the point, in the same unit.
     arriving: DVec3,
     leaving: DVec3,
-    /// In r_s/c.
-    delay: f64,
 }
 
 impl RayEnds {
@@ -110,7 +111,7 @@ impl RayEnds {
         let n = camera.position / l;
         let across = position - n * position.dot(n);
         let side = across.try_normalize().unwrap_or_else(|| n.any_orthonormal_vector());
-        let ray = light::connect(1.0 / r, order.swept(across.length().atan2(position.dot(n)).max(1e-12)), 1.0 / l, Branch::Plus)?;
+        let ray = light::join(1.0 / r, order.swept(across.length().atan2(position.dot(n)).max(1e-12)), 1.0 / l, Branch::Plus)?;
         let turn = if order.flips() { -1.0 } else { 1.0 };
         let psi = light::rain_angle(ray.slope, ray.energy, 1.0 / l);
         let look = n * psi.cos() + side * (turn * psi.sin());
@@ -118,7 +119,7 @@ impl RayEnds {
             [(ray.slope, 1.0 / l), (ray.emission_slope, 1.0 / r)].map(|(slope, u)| light::rain_momentum(slope, ray.energy, u));
         let m = position / r;
         let onward = (side * m.dot(n) - n * m.dot(side)) * turn;
-        Some(RayEnds { look, arriving: look * -here[0].hypot(here[1]), leaving: m * there[0] + onward * there[1], delay: ray.delay })
+        Some(RayEnds { look, arriving: look * -here[0].hypot(here[1]), leaving: m * there[0] + onward * there[1] })
     }
 
     /// ν_observed/ν_emitted for an emitter at `position` with `velocity` dx/dT.

@@ -5,7 +5,7 @@ use lensrunner::spacetime::Observer;
 use glam::{DVec2, DVec3};
 use lensrunner::lensing::Slice;
 use lensrunner::render::Renderer;
-use lensrunner::render::aurora::{AuroraAnimation, AuroraFrame, BOTH_POLES, planet_history};
+use lensrunner::render::aurora::{AuroraAnimation, AuroraFrame, BOTH_POLES, PlanetLine};
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback;
 use lensrunner::render::instances::InstanceView;
@@ -105,7 +105,8 @@ fn hold(renderer: &mut Renderer, planet: &Planet, camera: Observer, config: &Gam
     let mut fine_frame = frame.clone();
     fine_frame.settings.chords = FINE;
     let fine = ends_of(renderer, camera, &fine_frame, &settings);
-    let history = planet_history(planet, 0.0, back, planet.dipole()).unwrap();
+    let mut line = PlanetLine::new(planet.dipole());
+    let history = line.about(planet, 0.0, back).unwrap();
     let falls = Quantiles::new(&Spectrum { accelerated: config.aurora.energy, thermal: config.aurora.thermal });
     let per_image = own.len() / frame.instances.len();
     let (mut off, mut by_chords) = (Vec::new(), Vec::new());

@@ -1,7 +1,7 @@
 //! The aurora's history on the GPU: a ring of rows of which a step writes one, and the place between nodes in both languages.
 
 use glam::DVec2;
-use lensrunner::render::aurora::node_history::{NodeHistory, ROW, ROWS};
+use lensrunner::render::aurora::node_history::{NodeHistory, NodeRow, ROW, ROWS, row};
 use lensrunner::render::aurora::{AuroraSettings, CurtainNode, Segment};
 use lensrunner::render::gpu::layout;
 use lensrunner::render::gpu::shaders::Pass;
@@ -19,12 +19,12 @@ use crate::twin::{run, run_with};
 const NODES: u32 = 16;
 
 /// Nodes on their way round a circle, each row elsewhere.
-fn nodes(row: u32) -> impl Iterator<Item = Node> {
-    (0..NODES).map(move |k| {
-        let random = |number: u32| f64::from(uniform(row, k, number));
-        let place = DVec2::from_angle(0.4 * f64::from(k)) * (2000.0 + 20.0 * random(0)) + 0.1 * f64::from(row);
+fn nodes(number: u32) -> NodeRow {
+    row((0..NODES).map(move |k| {
+        let random = |which: u32| f64::from(uniform(number, k, which));
+        let place = DVec2::from_angle(0.4 * f64::from(k)) * (2000.0 + 20.0 * random(0)) + 0.1 * f64::from(number);
         Node { place, flux: 1.0 + random(1), along: 6.0 * f64::from(k) }
-    })
+    }))
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use lensrunner::render::aurora::capacities::{CORNERS, DRAWS_BYTES, FOURS, StrokeCapacities};
-use lensrunner::render::aurora::{AuroraSettings, PYRAMID, RAYS_PERIOD, occlusion, planet_history};
+use lensrunner::render::aurora::{AuroraSettings, PYRAMID, PlanetLine, RAYS_PERIOD, occlusion};
 use lensrunner::render::gpu::layout;
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::stage::static_camera;
@@ -221,7 +221,8 @@ fn a_planet_far_away_has_a_history() {
     let text = "[camera]\nposition = [-2000.0, 0.0, 0.0]\n[planet]\norbit_radius = 600.0\nradius = 0.8\n";
     let planet = Scene::from_toml("far.toml".as_ref(), text).unwrap().planet.unwrap();
     for back in [10.0, 900.0, 6000.0, 1e5] {
-        let history = planet_history(&planet, 0.0, back, planet.dipole()).expect("it is somewhere");
+        let mut line = PlanetLine::new(planet.dipole());
+        let history = line.about(&planet, 0.0, back).expect("it is somewhere");
         for time in [-back, 0.0] {
             let off = history.at(time).position.distance(planet.state(time).unwrap().position);
             println!("{back} r_s/c back: off by {off}");

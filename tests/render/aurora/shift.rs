@@ -2,10 +2,10 @@
 
 use glam::{DQuat, DVec2, DVec3};
 use lensrunner::render::aurora::shift::ImageShift;
-use lensrunner::render::aurora::{Colours, SHIFTS, planet_history};
+use lensrunner::render::aurora::{Colours, PlanetLine, SHIFTS};
 use lensrunner::render::gpu::layout;
 use lensrunner::render::gpu::shaders::Pass;
-use lensrunner::render::instances::InstanceView;
+use lensrunner::render::instances::{InstanceView, departure};
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::aurora::lines::kilorayleigh_xyz;
 use lensrunner::scene::planet::Planet;
@@ -31,7 +31,8 @@ fn lines_shift_with_the_planets_rotation() {
     let mut renderer = renderer(size);
     let stage = Stage::new(&mut renderer, &scene, &config);
     let planet = scene.planet.unwrap();
-    let history = planet_history(&planet, 0.0, 60.0, DQuat::IDENTITY).unwrap();
+    let mut line = PlanetLine::new(DQuat::IDENTITY);
+    let history = line.about(&planet, 0.0, 60.0).unwrap();
     let middle = planet.state(0.0).unwrap().position;
     let aside = (middle.normalize() * 0.9 + DVec3::Z * 0.43).normalize();
     let far = static_camera(middle + aside * (12.0 * planet.radius), -aside, DVec3::Z, 0.35);
@@ -73,7 +74,8 @@ fn without_doppler_and_beaming_no_shift_is_looked_for() {
 
 fn compare(view: &InstanceView, planet: &Planet, history: &History, allowed: f64) -> [f64; 2] {
     let (camera, aspect, time, order) = (view.camera, view.aspect.unwrap(), 0.0, Order::ALL[0]);
-    let shift = ImageShift::new(view, time, history, order, planet.radius).unwrap();
+    let began = departure(view, time, history, order).unwrap();
+    let shift = ImageShift::new(view, [began, time], history, order, planet.radius).unwrap();
     // What flows past a place with the rain: proper time by T of what moves.
     let slowed = |position: DVec3, velocity: DVec3| (1.0 - (velocity + position / position.length().powf(1.5)).length_squared()).sqrt();
     let flies = velocity(&ShipState::new(camera.position, camera.momentum));

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use lensrunner::lensing::Slice;
-use lensrunner::render::aurora::{AuroraAnimation, AuroraFrame};
+use lensrunner::render::aurora::{AuroraAnimation, AuroraFrame, PlanetLine};
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::instances::InstanceView;
 use lensrunner::render::stage::{Stage, settings, static_camera};
@@ -156,4 +156,24 @@ fn what_leaves_strokes_is_never_left_out() {
     }
     println!("{left_out} left out, {lit} with strokes, {in_vain} drawn in vain");
     assert!(left_out > 10 && lit > 20);
+}
+
+/// A worldline that goes on from frame to frame, forwards, backwards and over a gap, is that which is made for one frame.
+#[test]
+fn the_planet_is_where_it_is_whatever_was_drawn_before() {
+    let planet = scene::load("chase").unwrap().planet.unwrap();
+    let mut kept = PlanetLine::new(planet.dipole());
+    let frames = (0..200).map(|k| (0.3 * f64::from(k), 80.0 + 0.4 * f64::from(k))).chain([(20.0, 80.0), (900.0, 80.0), (900.1, 500.0)]);
+    for (time, back) in frames {
+        let mut fresh = PlanetLine::new(planet.dipole());
+        let lines = [&mut kept, &mut fresh].map(|line| line.about(&planet, time, back).unwrap());
+        for k in 0..40 {
+            let t = time + 0.1 - (back + 0.1) * f64::from(k) / 39.0;
+            let [got, want] = [0, 1].map(|k| lines[k].at(t));
+            assert_eq!(got, want, "T = {t}, seen at {time}");
+            let truth = planet.state(t).unwrap();
+            let turned = (truth.attitude * planet.dipole()).angle_between(got.attitude);
+            assert!(truth.position.distance(got.position) < 1e-6 && turned < 1e-6, "T = {t}: {got:?} for {truth:?}, {turned}");
+        }
+    }
 }

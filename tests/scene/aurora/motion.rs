@@ -22,7 +22,7 @@ fn steps(motion: &mut AuroraMotion, count: u32) {
 
 /// The first node of each piece of a curtain between two nodes.
 fn pieces(motion: &AuroraMotion) -> impl Iterator<Item = usize> {
-    motion.starts().windows(2).flat_map(|window| window[0]..window[1] - 1)
+    motion.layout().starts.windows(2).flat_map(|window| window[0]..window[1] - 1)
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn what_lies_beside_a_sheet_drifts_as_over_the_north_of_the_earth() {
         let at = |x| DVec2::new(x, side);
         let beside = Curve { control: [at(-1.0), at(-0.3), at(0.3), at(1.0)], ..straight(1.0) };
         let mut motion = AuroraMotion::new(even(vec![straight(500.0), beside], 600, 40.0), 0.0);
-        let first = motion.starts()[1];
+        let first = motion.layout().starts[1];
         let before = motion.nodes()[first].place;
         motion.step();
         // 37 mV/m in 5e-5 T is 0.74 km/s; Adams' and Bashforth's first step is half as long again.
@@ -107,7 +107,7 @@ fn waves_of_a_sheet_grow_as_those_of_a_vortex_sheet() {
                 let angle = |k: usize| 0.5 * PI * waves * (quarter as f64 + k as f64 / last as f64);
                 (0..last).map(|k| motion.nodes()[window[0] + k].place.length() * angle(k).sin()).sum::<f64>()
             };
-            motion.starts().windows(2).enumerate().map(|(quarter, window)| part(quarter, window)).sum::<f64>()
+            motion.layout().starts.windows(2).enumerate().map(|(quarter, window)| part(quarter, window)).sum::<f64>()
         };
         let before = amplitude(&motion);
         steps(&mut motion, 40);
@@ -242,8 +242,8 @@ fn brightness_goes_round_an_oval_without_a_seam() {
     let mut motion = AuroraMotion::new(plan, 100.0);
     motion.step();
     let nodes = motion.nodes();
-    for (quarter, window) in motion.starts().windows(2).enumerate() {
-        let (end, next) = (nodes[window[1] - 1], nodes[motion.starts()[(quarter + 1) % 4]]);
+    for (quarter, window) in motion.layout().starts.windows(2).enumerate() {
+        let (end, next) = (nodes[window[1] - 1], nodes[motion.layout().starts[(quarter + 1) % 4]]);
         assert!((end.flux - next.flux).abs() < 1e-9 && end.place.distance(next.place) < 1e-6, "{end:?} and {next:?} are one place");
         let jump = (end.along - next.along) / RAYS_LENGTH;
         assert!((jump - jump.round()).abs() < 1e-9, "the rays jump from {} to {} km", end.along, next.along);

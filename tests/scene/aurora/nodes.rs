@@ -87,13 +87,13 @@ fn rows_go_on_beyond_the_ends_of_curves() {
         let mut motion = AuroraMotion::new(plan, 0.0);
         (0..60).for_each(|_| motion.step());
         let row: Vec<DVec2> = motion.row().map(|node| node.place).collect();
-        let curves = motion.starts().windows(2).enumerate();
+        let curves = motion.layout().starts.windows(2).enumerate();
         let curves: Vec<[usize; 2]> = curves.map(|(curve, own)| [own[0], own[1] - 1].map(|node| node + 2 * curve + 1)).collect();
         assert_eq!(row.len(), motion.nodes().len() + 2 * curves.len());
         let mut joints = 0;
         for (curve, &[first, last]) in curves.iter().enumerate() {
             // Its own nodes in their order.
-            let own = motion.nodes()[motion.starts()[curve]..motion.starts()[curve + 1]].iter().map(|node| node.place);
+            let own = motion.nodes()[motion.layout().starts[curve]..motion.layout().starts[curve + 1]].iter().map(|node| node.place);
             assert!(own.eq(row[first..=last].iter().copied()));
             match curves.iter().find(|[other, _]| row[*other].distance(row[last]) < 1.0) {
                 // Both curves have the same direction where they are joined.

@@ -1,11 +1,12 @@
 //! How many chords a streak needs. The number is doubled until the middle of each chord lies where its light is seen, with bending and
 //! delay.
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DMat4, DVec2, DVec3};
 
+use crate::render::aurora::animation::streaks::RowPlaces;
 use crate::render::aurora::{BOTH_POLES, Segment};
-use crate::render::instances::{InstanceView, departure};
-use crate::scene::aurora::dipole::{REFERENCE_HEIGHT, on_field_line};
+use crate::render::instances::InstanceView;
+use crate::scene::aurora::dipole::on_field_line;
 use crate::scene::aurora::lines::{self, Line};
 use crate::sim::History;
 use crate::spacetime::light::Order;
@@ -17,8 +18,9 @@ const MOST: usize = 16;
 /// evenly spread.
 const NEAREST: usize = 6;
 const OTHERS: usize = 16;
-/// Steps of the search for the emission time of a streak. Each step reduces the error to a third or less.
-const SEARCH: u32 = 4;
+/// Steps of the search for the emission time of a streak. Each step reduces the error to a third or less, and all of a streak is tested at
+/// one time: a tenth of the light's way through the planet is near enough.
+const SEARCH: u32 = 2;
 /// Largest error of a chord's middle: this share of the whole length, of which the luminous one is half, or this many pixels, whichever is
 /// more. (The ends of the light may be off by 1 % of the luminous length and half a pixel.)
 const OF_LENGTH: f64 = 0.005;
@@ -42,76 +44,119 @@ pub struct ChordInputs<'a, 'b> {
     pub heights: [[f64; 2]; 2],
 }
 
+/// The planet at one time: where its centre is in r_s, and what turns km in the dipole's axes into r_s from there.
+#[derive(Clone, Copy)]
+struct Globe {
+    centre: DVec3,
+    axes: DMat3,
+}
+
+/// A height in km at which a chord ends or has its middle, and for how long light is delayed there, s.
+type Height = [f64; 2];
+
+/// The middle of a part of a curtain at one pole.
+type Part<'a> = (&'a Segment, f64);
+
 impl ChordInputs<'_, '_> {
-    /// Number of chords for the streaks of these parts, in images of these orders. `middle(part, s)` is where the middle of a part was `s`
-    /// seconds before, in km in the plane across the field: light is delayed in a curtain that moves.
-    pub fn chords(&self, segments: &[Segment], middle: impl Fn(&Segment, f64) -> DVec2, orders: &[Order], flags: u32) -> u32 {
+    /// Number of chords for the streaks of these parts, in images of these orders, by the light that left the planet's centre at these
+    /// times. `places` has the nodes of the parts; `middle(part, s)` is where the middle of a part was `s` seconds before, in km in the
+    /// plane across the field: light is delayed in a curtain that moves.
+    pub fn chords(
+        &self,
+        segments: &[Segment],
+        places: &RowPlaces,
+        middle: impl Fn(&Segment, f64) -> DVec2,
+        departures: &[(Order, f64)],
+        flags: u32,
+    ) -> u32 {
         let streaks: usize = segments.iter().map(|segment| segment.streaks as usize).sum();
-        let ends = |chords: usize| streaks * (2 * chords + 1) * orders.len();
+        let ends = |chords: usize| streaks * (2 * chords + 1) * departures.len();
         let poles: &[f64] = if flags & BOTH_POLES != 0 { &[1.0, -1.0] } else { &[1.0] };
-        let axis = self.view.camera.position.normalize();
+        let to_camera = self.view.camera.camera_from_rain();
         let mut chords = LEAST;
-        for &order in orders {
-            let Some(began) = departure(self.view, self.time, self.history, order).map(|light| light.time) else { continue };
-            let all = segments.iter().flat_map(|segment| poles.iter().map(move |pole| (segment, *pole)));
-            let mut sample: Vec<(f64, &Segment, f64)> = all
-                .map(|(segment, pole)| {
-                    let there = self.position(began, middle(segment, 0.0), pole, REFERENCE_HEIGHT);
-                    (there.reject_from_normalized(axis).length_squared(), segment, pole)
-                })
-                .collect();
-            if sample.len() > NEAREST {
-                sample.select_nth_unstable_by(NEAREST, |a, b| a.0.total_cmp(&b.0));
-                let step = (sample.len() - NEAREST).div_ceil(OTHERS);
-                let others: Vec<_> = sample.drain(NEAREST..).step_by(step).collect();
-                sample.extend(others);
-            }
-            for (_, segment, pole) in sample {
-                let streak = |line: Line, height: f64| (middle(segment, lines::delays(height)[line as usize]), pole);
-                while chords < MOST && ends(2 * chords) <= MOST_ENDS && !self.hold(chords, order, began, streak) {
+        let mut heights = self.heights(chords);
+        for &(order, began) in departures {
+            for part in self.sample(segments, places, poles, began) {
+                let place = |height: Height| on_field_line(middle(part.0, height[1]), height[0]) * DVec3::new(1.0, 1.0, part.1);
+                while chords < MOST && ends(2 * chords) <= MOST_ENDS && !self.hold(&heights, order, began, place, &to_camera) {
                     chords *= 2;
+                    heights = self.heights(chords);
                 }
             }
         }
         chords as u32
     }
 
-    /// Whether with so many chords every middle lies where its light is seen. Chords that are not seen count as right.
-    fn hold(&self, chords: usize, order: Order, began: f64, streak: impl Fn(Line, f64) -> (DVec2, f64)) -> bool {
-        [(Line::Green, chords), (Line::Red, 2 * chords)].into_iter().enumerate().all(|(kind, (line, count))| {
-            let [high, low] = self.heights[kind];
-            // Ends and middles; as in streaks.wgsl.
-            let height = |k: usize| {
-                let end = |k: usize| {
-                    let left = 1.0 - k as f64 / count as f64;
-                    low + (high - low) * if line == Line::Red { left * left } else { left }
-                };
-                0.5 * (end(k / 2) + end(k.div_ceil(2)))
-            };
-            let mut emission = began;
-            let seen = |emission: f64, height: f64| {
-                let (plane, pole) = streak(line, height);
-                self.view.look(self.position(emission, plane, pole, height), order, self.time - emission)
-            };
-            for _ in 0..if self.view.settings.light_delay { SEARCH } else { 0 } {
-                let Some((_, path)) = seen(emission, low) else { return true };
-                emission = self.time - path;
+    /// The parts that are tested, by where the planet was at the time `began`.
+    fn sample<'a>(&self, segments: &'a [Segment], places: &RowPlaces, poles: &[f64], began: f64) -> impl Iterator<Item = Part<'a>> {
+        let axis = self.view.camera.position.normalize();
+        let globe = self.globe(began);
+        // The square of the distance from the axis.
+        let mut nearest = [(f64::INFINITY, None); NEAREST];
+        for segment in segments {
+            let node = segment.first_node + (segment.span - 1) / 2;
+            let Some(point) = places.points.get(node as usize) else { continue };
+            for &pole in poles {
+                let off = globe.place(*point * DVec3::new(1.0, 1.0, pole)).reject_from_normalized(axis).length_squared();
+                if off < nearest[NEAREST - 1].0 {
+                    let k = nearest.partition_point(|other| other.0 <= off);
+                    nearest[k..].rotate_right(1);
+                    nearest[k] = (off, Some((segment, pole)));
+                }
             }
-            let apparent = |k: usize| {
-                let (look, path) = seen(emission, height(k))?;
-                // As in shaders/geometry/project.wgsl.
-                Some((self.view.camera.camera_from_rain() * (look * path).extend(-path)).truncate())
+        }
+        // So many of each pole as make them all together.
+        let step = segments.len().div_ceil(OTHERS / poles.len()).max(1);
+        let others = poles.iter().flat_map(move |&pole| segments.iter().step_by(step).map(move |segment| (segment, pole)));
+        let others: Vec<Part> = others.collect();
+        nearest.into_iter().filter_map(|(_, part)| part).chain(others)
+    }
+
+    /// Ends and middles of so many chords of a green streak, and of twice as many of a red one, from the highest down; as in streaks.wgsl.
+    fn heights(&self, chords: usize) -> [Vec<Height>; 2] {
+        [(Line::Green, chords), (Line::Red, 2 * chords)].map(|(line, count)| {
+            let [high, low] = self.heights[usize::from(line == Line::Red)];
+            let end = |k: usize| {
+                let left = 1.0 - k as f64 / count as f64;
+                low + (high - low) * if line == Line::Red { left * left } else { left }
             };
-            let Some(seen) = (0..=2 * count).map(apparent).collect::<Option<Vec<DVec3>>>() else { return true };
-            let allowed = (OF_LENGTH * seen[0].angle_between(seen[2 * count])).max(PIXELS * self.view.pixel);
-            let mut middles = seen.windows(3).step_by(2).enumerate().filter(|(chord, _)| height(2 * chord + 1) <= self.tops[kind]);
-            middles.all(|(_, chord)| (0.5 * (chord[0] + chord[2])).angle_between(chord[1]) <= allowed)
+            let height = |k: usize| 0.5 * (end(k / 2) + end(k.div_ceil(2)));
+            (0..=2 * count).map(height).map(|height| [height, lines::delays(height)[line as usize]]).collect()
         })
     }
 
-    /// Position at a time, in r_s, of a point of the aurora, given in the plane across the field and by its height, both in km.
-    fn position(&self, time: f64, plane: DVec2, pole: f64, height: f64) -> DVec3 {
+    /// Whether with chords between these heights every middle lies where its light is seen. Chords that are not seen count as right.
+    fn hold(&self, heights: &[Vec<Height>; 2], order: Order, began: f64, place: impl Fn(Height) -> DVec3, to_camera: &DMat4) -> bool {
+        let Some(low) = heights[0].last().map(|height| place(*height)) else { return true };
+        let mut emission = began;
+        for _ in 0..if self.view.settings.light_delay { SEARCH } else { 0 } {
+            let Some((_, path)) = self.view.look(self.globe(emission).place(low), order, self.time - emission) else { return true };
+            emission = self.time - path;
+        }
+        let globe = self.globe(emission);
+        heights.iter().zip(self.tops).all(|(heights, top)| {
+            let mut seen = [DVec3::ZERO; 4 * MOST + 1];
+            for (seen, height) in seen.iter_mut().zip(heights) {
+                let Some((look, path)) = self.view.look(globe.place(place(*height)), order, self.time - emission) else { return true };
+                // As in shaders/geometry/project.wgsl.
+                *seen = (*to_camera * (look * path).extend(-path)).truncate();
+            }
+            let seen = &seen[..heights.len()];
+            let allowed = (OF_LENGTH * seen[0].angle_between(seen[seen.len() - 1])).max(PIXELS * self.view.pixel);
+            let mut middles = seen.windows(3).step_by(2).zip(heights.iter().skip(1).step_by(2)).filter(|(_, [height, _])| *height <= top);
+            middles.all(|(chord, _)| (0.5 * (chord[0] + chord[2])).angle_between(chord[1]) <= allowed)
+        })
+    }
+
+    fn globe(&self, time: f64) -> Globe {
         let sample = self.history.at(time);
-        sample.position + sample.attitude * (on_field_line(plane, height) * DVec3::new(1.0, 1.0, pole) * self.scale)
+        Globe { centre: sample.position, axes: DMat3::from_quat(sample.attitude) * self.scale }
+    }
+}
+
+impl Globe {
+    /// A point in km in the dipole's axes, in r_s.
+    fn place(&self, point: DVec3) -> DVec3 {
+        self.centre + self.axes * point
     }
 }

@@ -1,16 +1,17 @@
-//! The aurora of a scene over time: simulates its curtains and decides for each frame how many streaks are drawn where (`streaks`), with
-//! how many chords (`chords`).
+//! The aurora of a scene over time: simulates its curtains, in real time beside the frames (`next_row`), and decides for each frame how
+//! many streaks are drawn where (`streaks`), with how many chords (`chords`).
 
 mod chords;
+mod next_row;
 pub(super) mod planet_view;
 pub(super) mod streaks;
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 use crate::render::aurora::colours::Colours;
-use crate::render::aurora::ground::{Glow, Ground, GroundFrame};
+use crate::render::aurora::ground::{Glow, Ground, GroundFrame, GroundMaps, GroundView};
 use crate::render::aurora::node_history::{NodeHistory, ROW, ROWS};
 use crate::render::aurora::ration::Ration;
 use crate::render::aurora::shift::ImageShift;
@@ -22,18 +23,18 @@ use crate::scene::aurora::curtains::curtains;
 use crate::scene::aurora::dipole::PLANET_RADIUS;
 use crate::scene::aurora::fall::Spectrum;
 use crate::scene::aurora::lines::kilorayleigh_xyz;
-use crate::scene::aurora::motion::{AuroraMotion, Plan, STEP, length};
+use crate::scene::aurora::motion::{AuroraMotion, NodeLayout, Plan, length};
 use crate::scene::aurora::quantiles::{HEIGHTS, KINDS, PARTS, Quantiles};
 use crate::scene::config::AuroraConfig;
 use crate::scene::lighting::Illumination;
 use crate::scene::planet::{AuroraShape, Planet};
 use crate::spacetime::light::Order;
 use chords::ChordInputs;
-use planet_view::{PlanetView, planet_history};
+use next_row::{MadeRow, NextRow, WantedMaps};
+use planet_view::{PlanetLine, PlanetView};
 use streaks::Curtains;
 
-/// Rows of nodes that a frame of a watched aurora makes at most. A row takes two steps of the motion, of some milliseconds each where an
-/// oval has thousands of nodes.
+/// Rows of nodes that a frame of a watched aurora takes at most.
 const MOST_ROWS: usize = 2;
 /// Period of the rays' noise, in s. In it the noise drifts by a whole number of times its 512 values (ends.wgsl).
 pub const RAYS_PERIOD: f64 = 102_400.0;
@@ -50,6 +51,8 @@ const LEAST_PIXELS: f64 = 6.0;
 /// Where the image of the whole planet is narrower than this, in pixels, its ground is not lit: the light beneath a curtain, some 230 km
 /// wide, would be a pixel. Up to twice this width it fades in.
 const GROUND_PIXELS: f64 = 55.0;
+/// From this share of that width on the map of the ground's light is made with each row of a watched aurora.
+const LIT_AHEAD: f64 = 0.9;
 /// Collisions of 35 eV, as kR, per erg cm⁻² s⁻¹: 6.2415e8 keV per erg, 1e9 photons cm⁻² s⁻¹ in a kR.
 const KILO_COLLISIONS: f64 = 6.2415e8 / 0.035 / 1e9;
 /// Room for strokes: more are not drawn in one order.
@@ -79,21 +82,28 @@ pub struct AuroraFrame {
 }
 
 /// The curtains of a planet, as they move.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct AuroraAnimation {
     planet: Planet,
+    /// The planet's worldline with the dipole's axes.
+    line: PlanetLine,
     /// Inner and outer radius of the scene's accretion disk, r_s.
     disk: Option<[f64; 2]>,
     config: AuroraConfig,
     falls: Falls,
     plan: Plan,
+    /// How the curtains move on: whole rows at once, or beside the frames where the aurora is watched.
     motion: Option<AuroraMotion>,
-    /// The history of the curtains' nodes; below, the time of its newest row in s.
+    next: Option<NextRow>,
+    /// The history of the curtains' nodes, and its newest row; none before the first frame.
     rows: NodeHistory,
-    newest: f64,
-    /// Their light on the ground, once it has been asked for.
-    ground: Option<Ground>,
-    /// Whether the aurora runs in real time. If so, no frame makes more than [`MOST_ROWS`] rows, and time out of sight is skipped. Else
+    newest: Option<MadeRow>,
+    /// Which nodes each curtain has.
+    layout: Arc<NodeLayout>,
+    /// Makes their light on the ground, once that has been asked for, and that light by the last two rows.
+    ground: Option<Arc<Ground>>,
+    maps: Option<GroundMaps>,
+    /// Whether the aurora runs in real time. If so, no frame takes more than [`MOST_ROWS`] rows, and time out of sight is skipped. Else
     /// each frame depends on its time alone.
     watched: bool,
     /// The share of its streaks with which it is drawn.
@@ -102,6 +112,17 @@ pub struct AuroraAnimation {
     offset: f64,
     /// The pace before it was changed, until the next frame.
     old_pace: Option<f64>,
+}
+
+/// The planet's images that show the aurora.
+#[derive(Default)]
+struct Images {
+    /// What is drawn of each.
+    frame: AuroraFrame,
+    /// The order of each, and the T at which light left the planet's centre for it.
+    departures: Vec<(Order, f64)>,
+    /// The width of the widest, pixels.
+    widest: f64,
 }
 
 impl AuroraAnimation {
@@ -123,14 +144,18 @@ impl AuroraAnimation {
         let config = config.clone();
         Some(AuroraAnimation {
             planet: *planet,
+            line: PlanetLine::new(planet.dipole()),
             disk,
             falls: Falls::of(&config),
             config,
             plan,
             motion: None,
+            next: None,
             rows: NodeHistory::default(),
-            newest: 0.0,
+            newest: None,
+            layout: Arc::default(),
             ground: None,
+            maps: None,
             watched: false,
             ration: Ration::default(),
             offset: 0.0,
@@ -158,7 +183,7 @@ impl AuroraAnimation {
         }
         if [config.energy, config.thermal] != [self.config.energy, self.config.thermal] {
             self.falls = Falls::of(config);
-            self.ground = None;
+            (self.ground, self.maps) = (None, None);
         }
         self.config = config.clone();
         true
@@ -173,27 +198,35 @@ impl AuroraAnimation {
     /// The aurora in the frame at T = `time`. None while it is out of sight or too small to see; then nothing is simulated. `back` is how
     /// far back light comes from, in r_s/c.
     pub fn frame(&mut self, view: &InstanceView, time: f64, back: f64, orders: u32) -> Option<AuroraFrame> {
-        let history = planet_history(&self.planet, time, back, self.planet.dipole())?;
-        let globe = PlanetView::new(view, time, &history, self.planet.radius);
-        let (mut frame, widest) = self.images(&globe, orders);
-        if frame.instances.is_empty() {
+        let mut line = std::mem::take(&mut self.line);
+        let history = line.about(&self.planet, time, back);
+        let frame = history.and_then(|history| self.frame_of(&PlanetView::new(view, time, history, self.planet.radius), orders));
+        self.line = line;
+        frame
+    }
+
+    fn frame_of(&mut self, globe: &PlanetView, orders: u32) -> Option<AuroraFrame> {
+        let mut images = self.images(globe, orders);
+        if images.frame.instances.is_empty() {
             return None;
         }
         if let Some(pace) = self.old_pace.take() {
-            self.offset += time * (pace - self.config.pace);
+            self.offset += globe.time * (pace - self.config.pace);
         }
-        let ahead = if self.watched { self.go_on(time * self.config.pace) } else { self.advance(time * self.config.pace) };
-        let midnight = self.midnight(&globe);
-        self.draw_streaks(&mut frame, &globe, ahead);
+        let now = globe.time * self.config.pace;
+        let ahead = if self.watched { self.go_on(globe.time, now, images.widest) } else { self.advance(now) };
+        let midnight = self.midnight(globe.position, globe.attitude);
+        self.draw_streaks(&mut images, globe, ahead);
+        let frame = &mut images.frame;
         frame.settings.midnight = midnight.as_vec2().to_array();
-        frame.ground = self.ground(midnight, ahead, widest);
+        frame.ground = self.ground(midnight, ahead, images.widest);
         frame.rows = self.rows.clone();
         frame.falls = self.falls.table.clone();
-        frame.segments.last().is_some_and(|segment| segment.first_streak + segment.streaks > 0).then_some(frame)
+        (frame.settings.streaks > 0).then_some(images.frame)
     }
 
-    /// The planet's images that show the aurora, with the colours of each, and the width of the widest, pixels.
-    fn images(&self, globe: &PlanetView, orders: u32) -> (AuroraFrame, f64) {
+    /// The planet's images that show the aurora, with the colours of each.
+    fn images(&self, globe: &PlanetView, orders: u32) -> Images {
         let &PlanetView { view, time, history, distance, .. } = globe;
         let nothing = ModelRange::default();
         let object = DrawnObject {
@@ -206,30 +239,32 @@ impl AuroraAnimation {
             id: 0,
             light: Illumination::default(),
         };
-        let mut frame = AuroraFrame::default();
-        let mut widest: f64 = 0.0;
+        let mut images = Images::default();
         for placed in instances_of(view, time, &object, orders) {
             let instance = placed.instance;
             let Some(order) = Order::new(instance.order as u8) else { continue };
             let position = DVec3::from_array(instance.position.map(f64::from));
+            let began = time - f64::from(instance.delay);
             let extent = view.extent(position, object.reach, order, 0.0);
             // Light of higher orders comes round the hole: from there even a near planet is far away.
             let near = distance < 2.0 * object.reach && order.number() == 1;
             let width = if near { globe.pixels } else { extent.width };
             // It fades in and out.
             let part = (width / LEAST_PIXELS - 1.0).min(1.0);
-            if part > 0.0 && sight::may_be_seen(view, time, history, order, object.reach) {
+            if part > 0.0 && sight::may_be_seen(view, [began, time], history, order, object.reach) {
                 let whole = [0.0, 0.0, 1.0, 1.0];
                 let seen_on = |aspect| if near { whole } else { extent.part_of_screen(view.camera, aspect) };
-                widest = widest.max(width);
+                images.widest = images.widest.max(width);
+                images.departures.push((order, began));
+                let frame = &mut images.frame;
                 frame.parts.push(view.aspect.map_or(whole, seen_on));
                 let bends = view.settings.method.bends;
                 frame.behind.push(self.disk.is_some_and(|disk| occlusion::is_behind(view.camera, position, order, bends, disk)));
-                frame.colours.push(self.colours(globe, order, part));
+                frame.colours.push(self.colours(globe, order, began, part));
                 frame.instances.push(instance);
             }
         }
-        (frame, widest)
+        images
     }
 
     /// Whether there are curtains at both poles.
@@ -237,9 +272,10 @@ impl AuroraAnimation {
         self.planet.aurora == AuroraShape::Oval
     }
 
-    /// Towards magnetic midnight, away from the hole, in the axes of the dipole: as long as the oval is brighter there.
-    fn midnight(&self, globe: &PlanetView) -> DVec2 {
-        let away = (globe.attitude.inverse() * globe.position).normalize_or_zero().truncate();
+    /// Towards magnetic midnight, away from the hole, in the axes of the dipole, for a planet at this place with these axes: as long as the
+    /// oval is brighter there.
+    fn midnight(&self, position: DVec3, attitude: DQuat) -> DVec2 {
+        let away = (attitude.inverse() * position).normalize_or_zero().truncate();
         if self.both_poles() { MIDNIGHT * away } else { DVec2::ZERO }
     }
 
@@ -250,13 +286,13 @@ impl AuroraAnimation {
 
     /// Puts the curtains as they are now into a frame, but for midnight: their parts, and what shaders need to know of the streaks. The
     /// newest row is `ahead` (s).
-    fn draw_streaks(&self, frame: &mut AuroraFrame, globe: &PlanetView, ahead: f64) {
-        let Some(motion) = &self.motion else { return };
+    fn draw_streaks(&self, images: &mut Images, globe: &PlanetView, ahead: f64) {
+        let Some(newest) = &self.newest else { return };
         let curtains = Curtains {
             config: &self.config,
             curves: &self.plan.curves,
-            motion,
-            row: self.rows.ago(0),
+            layout: &self.layout,
+            places: &newest.places,
             both: self.both_poles(),
             ration: self.ration.part() * f64::from(globe.view.settings.streaks),
             collisions: self.collisions(),
@@ -267,7 +303,6 @@ impl AuroraAnimation {
         if curtains.both {
             flags |= BOTH_POLES;
         }
-        let orders: Vec<Order> = frame.instances.iter().filter_map(|instance| Order::new(instance.order as u8)).collect();
         let bend = ChordInputs {
             view: globe.view,
             time: globe.time,
@@ -276,17 +311,18 @@ impl AuroraAnimation {
             tops: self.falls.tops,
             heights: self.falls.ends.map(|ends| ends.map(f64::from)),
         };
-        let chords = bend.chords(&segments, |segment, wait| self.rows.middle_of(segment, wait + ahead), &orders, flags);
+        let middle = |segment: &Segment, wait: f64| self.rows.middle_of(segment, wait + ahead);
+        let chords = bend.chords(&segments, &newest.places, middle, &images.departures, flags);
         let parts = curtains.parts(globe);
         let capacity = (streaks as usize * parts as usize).min(MOST_STROKES);
         let levels = curtains.levels(globe, &segments, self.planet.radius * REACH);
         let clock = (globe.time * self.config.pace).rem_euclid(RAYS_PERIOD);
         let [[green_top, green_foot], [red_top, red_foot]] = self.falls.ends;
-        frame.settings = AuroraSettings {
+        images.frame.settings = AuroraSettings {
             streaks,
             chords,
             parts,
-            row_nodes: self.rows.ago(0).len() as u32,
+            row_nodes: newest.nodes.len() as u32,
             newest_row: self.rows.newest() as u32,
             segments: segments.len() as u32,
             capacity: capacity as u32,
@@ -303,39 +339,7 @@ impl AuroraAnimation {
             red_top,
             red_foot,
         };
-        frame.segments = segments;
-    }
-
-    /// The same for a watched aurora, whose time is ahead of `now`. It begins at rest, with a past in which nothing changed (light that
-    /// travelled along the curtains would take 128 rows in one frame, 60 to 70 ms for an oval); when it comes into sight again it goes on
-    /// where it was, and where the clock runs away from it, it stays behind.
-    fn go_on(&mut self, now: f64) -> f64 {
-        let now = now + self.offset;
-        if self.motion.is_none() {
-            let motion = AuroraMotion::new(self.plan.clone(), (now / ROW).floor() * ROW);
-            self.rows = NodeHistory::still(motion.row());
-            self.newest = motion.time();
-            self.motion = Some(motion);
-        }
-        if let Some(mut motion) = self.motion.take() {
-            for _ in 0..MOST_ROWS {
-                if self.newest < now {
-                    move_on(&mut motion);
-                    self.keep(&motion);
-                }
-            }
-            self.motion = Some(motion);
-        }
-        // Missed: hidden for a while, or the clock began anew.
-        let missed = if (self.newest - 2.0 * ROW..=self.newest).contains(&now) { 0.0 } else { self.newest - now };
-        self.offset += missed;
-        self.newest - (now + missed)
-    }
-
-    /// The curtains as they are now become the newest row.
-    fn keep(&mut self, motion: &AuroraMotion) {
-        self.newest = motion.time();
-        self.rows.push(motion.row());
+        images.frame.segments = segments;
     }
 
     /// Brings the curtains to the time `now` (s); returns by how much the newest row is ahead of it.
@@ -343,45 +347,137 @@ impl AuroraAnimation {
         let warm_up = ROWS as f64 * ROW;
         let stale = self.motion.as_ref().is_none_or(|motion| !(motion.time() - warm_up..=motion.time() + warm_up).contains(&now));
         if stale {
-            let motion = AuroraMotion::new(self.plan.clone(), ((now - warm_up) / ROW).floor() * ROW);
-            self.rows = NodeHistory::still(motion.row());
-            self.newest = motion.time();
-            self.motion = Some(motion);
+            self.motion = Some(self.start((now - warm_up) / ROW));
         }
         let Some(mut motion) = self.motion.take() else { return 0.0 };
-        while self.newest < now {
-            move_on(&mut motion);
-            self.keep(&motion);
+        while motion.time() < now {
+            self.keep(MadeRow::after(&mut motion));
         }
+        let ahead = motion.time() - now;
         self.motion = Some(motion);
-        self.newest - now
+        ahead
+    }
+
+    /// The same for a watched aurora, whose time is ahead of that at T = `time`, `now`. It begins at rest, with a past in which nothing
+    /// changed (light that travelled along the curtains would take 128 rows in one frame); when it comes into sight again it goes on where
+    /// it was, and where the clock runs away from it, it stays behind. `widest` is the width in pixels of the widest image of the planet.
+    fn go_on(&mut self, time: f64, now: f64, widest: f64) -> f64 {
+        let now = now + self.offset;
+        if self.next.is_none() {
+            let motion = self.start(now / ROW);
+            self.begin(motion, time, now, widest);
+        }
+        for taken in 0..MOST_ROWS {
+            let behind = now - self.newest_time();
+            // After a while out of sight one row is as good as several.
+            if behind <= 0.0 || (taken > 0 && behind > MOST_ROWS as f64 * ROW) {
+                break;
+            }
+            if let Some(next) = self.next.take() {
+                let (motion, row) = next.take();
+                self.keep(row);
+                self.begin(motion, time, now, widest);
+            }
+        }
+        let ahead = self.newest_time() - now;
+        if let Some(next) = &mut self.next {
+            next.go_on(1.0 - ahead / ROW);
+        }
+        self.offset += missed(ahead);
+        ahead - missed(ahead)
+    }
+
+    /// The curtains at rest at a time, in rows, with a past in which nothing changed.
+    fn start(&mut self, row: f64) -> AuroraMotion {
+        let motion = AuroraMotion::new(self.plan.clone(), row.floor() * ROW);
+        let newest = MadeRow::of(&motion);
+        self.layout = motion.layout().clone();
+        self.rows = NodeHistory::still(newest.nodes.clone());
+        self.newest = Some(newest);
+        motion
+    }
+
+    /// Begins with the row after the newest. It is due at a later T than `time`, when it is `now`.
+    fn begin(&mut self, mut motion: AuroraMotion, time: f64, now: f64, widest: f64) {
+        motion.change(self.plan.field, self.plan.renewal, self.plan.contrast);
+        let wanted = (widest > LIT_AHEAD * GROUND_PIXELS).then(|| self.wanted_maps(time, now)).flatten();
+        self.next = Some(NextRow::begin(motion, wanted));
+    }
+
+    /// The maps of the light on the ground that the row after the newest brings.
+    fn wanted_maps(&mut self, time: f64, now: f64) -> Option<WantedMaps> {
+        let newest = self.newest.as_ref()?;
+        let (before, ahead) = (newest.nodes.clone(), newest.time - now);
+        let seconds = ahead - missed(ahead);
+        let midnight = |seconds: f64| {
+            // Where the aurora stands still, it is so for ever.
+            let later = seconds / self.config.pace;
+            let planet = self.planet.state(time + if later.is_finite() { later } else { 0.0 })?;
+            Some(self.midnight(planet.position, planet.attitude * self.planet.dipole()))
+        };
+        let midnights = [midnight(seconds + ROW)?, midnight(seconds)?];
+        Some(WantedMaps { before, midnights, old: self.maps.clone(), ground: self.ground_maker() })
+    }
+
+    fn newest_time(&self) -> f64 {
+        self.newest.as_ref().map_or(0.0, |row| row.time)
+    }
+
+    /// A row becomes the newest.
+    fn keep(&mut self, row: MadeRow) {
+        self.rows.push(row.nodes.clone());
+        if row.maps.is_some() {
+            self.maps.clone_from(&row.maps);
+        }
+        self.newest = Some(row);
+    }
+
+    fn ground_maker(&mut self) -> Arc<Ground> {
+        let make = || Arc::new(Ground::new(&self.plan.curves, &self.layout, self.falls.glow.clone()));
+        self.ground.get_or_insert_with(make).clone()
     }
 
     /// Their light on the ground, faded by the width in pixels of the widest image of the planet.
     fn ground(&mut self, midnight: DVec2, ahead: f64, pixels: f64) -> Option<GroundFrame> {
         let part = (pixels / GROUND_PIXELS - 1.0).min(1.0);
-        let (collisions, both) = (self.collisions(), self.both_poles());
-        let motion = self.motion.as_ref().filter(|_| part > 0.0)?;
-        let ground = self.ground.get_or_insert_with(|| Ground::new(&self.plan.curves, motion, self.falls.glow.clone()));
+        if part <= 0.0 {
+            return None;
+        }
+        let ground = self.ground_maker();
+        let rows = [self.rows.row(0)?, self.rows.row(1)?];
+        let ahead = ahead / ROW;
+        let old = self.maps.take();
+        let maps = match &old {
+            Some(maps) if maps.serve(rows, midnight, ahead.clamp(0.0, 1.0)) => maps.clone(),
+            _ => ground.maps(rows, [midnight; 2], old.as_ref()),
+        };
         // In the unit of the lines' colours at rest; what is lit is shifted like the surface.
         let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1];
-        let kilo = collisions * unit;
-        Some(ground.frame(&self.rows, ahead / ROW, midnight, kilo, self.planet.dipole(), both))
+        let view = GroundView { ahead, kilo: self.collisions() * unit, dipole: self.planet.dipole(), both: self.both_poles() };
+        Some(ground.frame(self.maps.insert(maps), &view))
     }
 
-    /// The colours of the lines in an image of the planet, Doppler shifted and beamed as the settings say, times `part` of their
-    /// brightness.
-    fn colours(&self, globe: &PlanetView, order: Order, part: f64) -> Colours {
+    /// The colours of the lines in an image of the planet, whose light left it at T = `began`, Doppler shifted and beamed as the settings
+    /// say, times `part` of their brightness.
+    fn colours(&self, globe: &PlanetView, order: Order, began: f64, part: f64) -> Colours {
         let view = globe.view;
-        let even = || ImageShift::even(globe.frequency_ratio(order).unwrap_or(1.0).clamp(0.2, 5.0));
-        let shift = ImageShift::new(view, globe.time, globe.history, order, self.planet.radius).unwrap_or_else(even);
+        let even = || ImageShift::even(globe.frequency_ratio(order, began).unwrap_or(1.0).clamp(0.2, 5.0));
+        let shift = ImageShift::new(view, [began, globe.time], globe.history, order, self.planet.radius).unwrap_or_else(even);
+        // A kilorayleigh of green at rest has the luminance that game.toml gives it.
+        let at_rest = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1];
         Colours::new(&shift, |g| {
             let [shift, beam] = [view.settings.doppler, view.settings.beaming].map(|on| if on { g.clamp(0.2, 5.0) } else { 1.0 });
-            // A kilorayleigh of green at rest has the luminance that game.toml gives it. Power goes as g⁴.
-            let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1] * (beam / shift).powi(4);
+            // Power goes as g⁴.
+            let unit = at_rest * (beam / shift).powi(4);
             kilorayleigh_xyz(shift).map(|[x, y, z]| [(x * unit) as f32, (y * unit) as f32, (z * unit) as f32, 0.0])
         })
     }
+}
+
+/// What the clock has missed of the aurora's time where the newest row is `ahead`, both in s: it was hidden for a while, or the clock began
+/// anew.
+fn missed(ahead: f64) -> f64 {
+    if (0.0..=2.0 * ROW).contains(&ahead) { 0.0 } else { ahead }
 }
 
 /// Light over height of electrons with the energies that the settings ask for.
@@ -402,12 +498,5 @@ impl Falls {
         let falls = Quantiles::new(&Spectrum { accelerated: config.energy, thermal: config.thermal });
         let tops = [0, 1].map(|kind| f64::from(falls.heights[kind * (PARTS + 1) + 1]));
         Falls { table: Arc::new(falls.laid_out()), ends: falls.ends, tops, glow: Glow::of(&falls) }
-    }
-}
-
-/// As many steps as there are between two rows.
-fn move_on(motion: &mut AuroraMotion) {
-    for _ in 0..(ROW / STEP).round() as u32 {
-        motion.step();
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::render::instances::{InstanceView, against_static, departure};
+use crate::render::instances::{InstanceView, against_static};
 use crate::scene::planet::Planet;
 use crate::sim::History;
 use crate::sim::flight::Command;
@@ -11,19 +11,64 @@ use crate::spacetime::Observer;
 use crate::spacetime::light::{Branch, Order};
 use crate::spacetime::matter::{ShipState, gamma, velocity};
 
-/// The worldline of a planet about T = `time`, as far back as light may come from, with the axes of its model turned by `turn`.
-pub fn planet_history(planet: &Planet, time: f64, back: f64, turn: DQuat) -> Option<History> {
-    let state = |t: f64| planet.state(t).map(|state| ShipState { attitude: state.attitude * turn, ..state });
-    // Attitudes are interpolated between nodes; over a fiftieth of a turn linear motion is off by 0.2 %. At most 400 nodes, however far
-    // back light comes from.
-    let step = (planet.day / 50.0).min(2.0).max(back / 400.0);
-    let first = time - back;
-    let mut history = History::new(first, &state(first)?);
-    for k in 1..=(back / step).ceil() as u32 + 1 {
-        let t = first + f64::from(k) * step;
-        history.push(t, &state(t)?, &Command::default());
+/// Attitudes are interpolated between nodes; over a fiftieth of a turn linear motion is off by 0.2 %. In r_s/c, whatever the day.
+const LONGEST_STEP: f64 = 2.0;
+/// At most so many nodes, however far back light comes from.
+const MOST_NODES: f64 = 400.0;
+/// How much farther back than is asked for a worldline goes, as a share: so a camera that flies away does not ask for another one.
+const FARTHER: f64 = 0.5;
+
+/// The worldline of a planet as it goes on from frame to frame. Its nodes are at whole multiples of their distance in T, so what is read of
+/// it does not depend on the frames before.
+#[derive(Clone, Debug, Default)]
+pub struct PlanetLine {
+    /// Turns the axes of the planet's model.
+    turn: DQuat,
+    kept: Option<KeptLine>,
+}
+
+#[derive(Clone, Debug)]
+struct KeptLine {
+    history: History,
+    /// Distance of its nodes, r_s/c.
+    step: f64,
+    /// The number of its last node.
+    last: i64,
+}
+
+impl PlanetLine {
+    /// Of a planet with the axes of its model turned by `turn`.
+    pub fn new(turn: DQuat) -> PlanetLine {
+        PlanetLine { turn, kept: None }
     }
-    Some(history)
+
+    /// The worldline of the planet about T = `time`, as far `back` (r_s/c) as light may come from.
+    pub fn about(&mut self, planet: &Planet, time: f64, back: f64) -> Option<&History> {
+        let turn = self.turn;
+        let state = |t: f64| planet.state(t).map(|state| ShipState { attitude: state.attitude * turn, ..state });
+        let finest = (planet.day / 50.0).min(LONGEST_STEP);
+        // In powers of two of the finest, so that it seldom changes.
+        let step = finest * (back / MOST_NODES / finest).max(1.0).log2().ceil().exp2();
+        let wanted = (time / step).floor() as i64 + 2;
+        let reaches = |line: &KeptLine| line.history.node_at(f64::NEG_INFINITY).0 <= time - back && line.last as f64 * step > time - back;
+        let mut kept = match self.kept.take().filter(|line| line.step == step && reaches(line)) {
+            Some(kept) => kept,
+            None => {
+                let keep = back * (1.0 + FARTHER);
+                let last = ((time - keep) / step).floor() as i64;
+                let first = last as f64 * step;
+                let mut history = History::new(first, &state(first)?);
+                history.forget_beyond(keep);
+                KeptLine { history, step, last }
+            }
+        };
+        while kept.last < wanted {
+            kept.last += 1;
+            let t = kept.last as f64 * step;
+            kept.history.push(t, &state(t)?, &Command::default());
+        }
+        Some(&self.kept.insert(kept).history)
+    }
 }
 
 /// A planet in one frame.
@@ -70,12 +115,12 @@ impl<'a> PlanetView<'a> {
         (u * u + 2.0) / (u * (u * u + 4.0).sqrt())
     }
 
-    /// ν_observed/ν_emitted for the centre, in an image: the ratio of proper times between two wave crests, from the light path's
-    /// derivatives along both worldlines. Where light is drawn straight it is that of special relativity against what hovers, as for all
-    /// else.
-    pub fn frequency_ratio(&self, order: Order) -> Option<f64> {
+    /// ν_observed/ν_emitted for the centre, in an image whose light left it at T = `emission`: the ratio of proper times between two wave
+    /// crests, from the light path's derivatives along both worldlines. Where light is drawn straight it is that of special relativity
+    /// against what hovers, as for all else.
+    pub fn frequency_ratio(&self, order: Order, emission: f64) -> Option<f64> {
         let camera = self.view.camera;
-        let emitted = departure(self.view, self.time, self.history, order)?.sample;
+        let emitted = self.history.at(emission);
         if !self.view.settings.method.bends {
             let k = (camera.position - emitted.position).normalize();
             let frequency = |position, momentum| {

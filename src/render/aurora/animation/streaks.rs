@@ -1,12 +1,14 @@
 //! How many streaks are drawn where: parts of the curtains, and how finely each streak is drawn.
 
+use glam::DVec3;
+
 use super::planet_view::PlanetView;
 use crate::render::aurora::levels::PYRAMID;
 use crate::render::aurora::node_history::place as node_position;
 use crate::render::aurora::{CurtainNode, Segment};
 use crate::scene::aurora::curve::Curve;
 use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT, on_field_line};
-use crate::scene::aurora::motion::AuroraMotion;
+use crate::scene::aurora::motion::NodeLayout;
 use crate::scene::aurora::quantiles::HEIGHTS;
 use crate::scene::config::AuroraConfig;
 
@@ -36,16 +38,36 @@ const LONGEST: f64 = HEIGHTS[0] - HEIGHTS[1];
 /// The walk uses coarser levels from 1.5 on.
 const NARROW: f64 = 1.0;
 
+/// Where the nodes of a row are.
+#[derive(Clone, Debug, Default)]
+pub struct RowPlaces {
+    /// Each at the reference height, in km from the planet's centre, in the dipole's axes.
+    pub points: Vec<DVec3>,
+    /// Of each from the next, km in the plane across the field.
+    pub apart: Vec<f64>,
+}
+
+impl RowPlaces {
+    /// Of this row.
+    pub fn of(row: &[CurtainNode]) -> RowPlaces {
+        let at = |k: usize| node_position(row, k);
+        RowPlaces {
+            points: (0..row.len()).map(|k| on_field_line(at(k), REFERENCE_HEIGHT)).collect(),
+            apart: (0..row.len()).map(|k| at(k).distance(at(k + 1))).collect(),
+        }
+    }
+}
+
 /// The curtains of a planet as they are drawn now.
 pub struct Curtains<'a> {
     /// What `game.toml` says of them.
     pub config: &'a AuroraConfig,
     /// At rest.
     pub curves: &'a [Curve],
-    /// As they move.
-    pub motion: &'a AuroraMotion,
-    /// Their nodes, as the shaders have them.
-    pub row: &'a [CurtainNode],
+    /// Their nodes.
+    pub layout: &'a NodeLayout,
+    /// Where those are.
+    pub places: &'a RowPlaces,
     /// Whether they are at both poles.
     pub both: bool,
     /// The part of their streaks that they are drawn with.
@@ -62,7 +84,7 @@ impl Curtains<'_> {
 
     /// Of each curve its first and its last node: in a row each has one more node at either end.
     fn spans(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
-        let starts = self.motion.starts().windows(2).enumerate();
+        let starts = self.layout.starts.windows(2).enumerate();
         starts.map(|(curve, window)| [window[0], window[1] - 1].map(|node| node + 2 * curve + 1))
     }
 
@@ -70,18 +92,17 @@ impl Curtains<'_> {
     /// poles. Distances below 100 km, the height of the aurora, count as 100 km.
     fn weights(&self, globe: &PlanetView) -> (Vec<f64>, f64) {
         let scale = globe.radius / PLANET_RADIUS;
-        let mut weights = vec![0.0; self.row.len()];
-        let mut total = 0.0;
-        for [first, last] in self.spans() {
-            for (k, weight) in weights.iter_mut().enumerate().take(last).skip(first) {
-                let here = globe.position + globe.attitude * (on_field_line(node_position(self.row, k), REFERENCE_HEIGHT) * scale);
-                let length = node_position(self.row, k).distance(node_position(self.row, k + 1)) * scale;
-                let per_pixel = (here - globe.view.camera.position).length().max(NEAREST * scale) * globe.view.pixel;
-                let sigma = self.config.radius * scale / per_pixel;
-                *weight = length / per_pixel * WIDE / sigma.max(WIDE);
-                total += f64::from(self.poles()) * *weight;
-            }
-        }
+        // In km of the planet, in the dipole's axes.
+        let eye = globe.attitude.inverse() * (globe.view.camera.position - globe.position) / scale;
+        let nodes = self.places.points.iter().zip(&self.places.apart);
+        let weights: Vec<f64> = nodes
+            .map(|(point, apart)| {
+                let per_pixel = (*point - eye).length().max(NEAREST) * globe.view.pixel;
+                let sigma = self.config.radius / per_pixel;
+                apart / per_pixel * WIDE / sigma.max(WIDE)
+            })
+            .collect();
+        let total = self.spans().map(|[first, last]| weights[first..last].iter().sum::<f64>()).sum::<f64>() * f64::from(self.poles());
         (weights, total)
     }
 
@@ -93,12 +114,12 @@ impl Curtains<'_> {
         let wanted = (per_pixel * total * globe.magnification()).min(f64::from(self.config.streaks)) * self.ration;
         // Where few streaks are wanted, several pairs of nodes make one part.
         let least = self.poles() * RED_EVERY;
-        let nodes = self.row.len();
+        let nodes = weights.len();
         let stride =
             ((f64::from(least) * nodes as f64 / wanted.max(1.0)).ceil() as usize).max(nodes.div_ceil(MOST_SEGMENTS)).clamp(1, MOST_PAIRS);
         let mut segments = Vec::new();
         let mut first = 0;
-        for (([first_of_curve, last], curve), &length) in self.spans().zip(self.curves).zip(self.motion.lengths()) {
+        for (([first_of_curve, last], curve), &length) in self.spans().zip(self.curves).zip(&self.layout.lengths) {
             let pairs = last - first_of_curve;
             let length = length / pairs as f64;
             let mut k = 0;
@@ -108,7 +129,7 @@ impl Curtains<'_> {
                 let nodes = first_node..first_node + span;
                 let weight: f64 = weights[nodes.clone()].iter().sum();
                 let count = (poles * weight / total.max(1e-9) * wanted / f64::from(least)).round().max(1.0) as u32 * least;
-                let kilometres: f64 = nodes.map(|k| node_position(self.row, k).distance(node_position(self.row, k + 1))).sum();
+                let kilometres: f64 = self.places.apart[nodes].iter().sum();
                 // In kR km².
                 let energy = self.collisions * length * span as f64 * curve.width * poles;
                 segments.push(Segment {

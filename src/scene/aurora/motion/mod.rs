@@ -21,6 +21,7 @@ pub mod near;
 pub mod poisson;
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use glam::DVec2;
 
@@ -34,6 +35,8 @@ use poisson::Poisson;
 pub const GRID: usize = 95;
 /// Time between two steps, in s. In it a node at the greatest speed moves a fraction of a cell.
 pub const STEP: f64 = 0.5;
+/// Nodes that are moved in one part of a step.
+const NODES_AT_ONCE: usize = 512;
 /// Strength of the field at the reference height, T (the Earth's at 67° N).
 pub const FIELD: f64 = 5e-5;
 /// No node drifts faster, km s⁻¹: the fastest seen in the ionosphere are near 4.
@@ -93,6 +96,15 @@ pub struct Node {
     pub along: f64,
 }
 
+/// Which nodes each curve has; it stays as the nodes move.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NodeLayout {
+    /// First node of each curve, and after the last their number.
+    pub starts: Vec<usize>,
+    /// Length of each curve at rest, km.
+    pub lengths: Vec<f64>,
+}
+
 /// All curtains, stepping at a fixed rate.
 #[derive(Clone, Debug)]
 pub struct AuroraMotion {
@@ -101,10 +113,8 @@ pub struct AuroraMotion {
     rest: Vec<(usize, f64, DVec2)>,
     /// For each node, by how many renewal times surges come earlier.
     early: Vec<f64>,
-    /// First node of each curve, and their number after the last.
-    starts: Vec<usize>,
-    /// Lengths of the curves at rest, in km; below, how they join.
-    lengths: Vec<f64>,
+    layout: Arc<NodeLayout>,
+    /// How the curves join.
     links: Vec<Link>,
     nodes: Vec<Node>,
     /// Velocities of the last step, for the second-order step of Adams and Bashforth.
@@ -115,6 +125,8 @@ pub struct AuroraMotion {
     poisson: Poisson,
     grid: Vec<f64>,
     near: Near,
+    /// Nodes that the step which has begun has moved.
+    moved: usize,
     caught: u64,
 }
 
@@ -152,9 +164,9 @@ impl AuroraMotion {
             grid: vec![0.0; GRID * GRID],
             rest,
             early: Vec::new(),
-            starts,
-            lengths,
+            layout: Arc::new(NodeLayout { starts, lengths }),
             links,
+            moved: nodes.len(),
             nodes,
             time,
             centre,
@@ -165,7 +177,9 @@ impl AuroraMotion {
         motion.near.thicken(motion.thickness());
         let early = |&(curve, t, _): &(usize, f64, DVec2)| SURGE_SPREAD * motion.noise_along(curve, t, SURGE_LENGTH, 0.0, 900);
         motion.early = motion.rest.iter().map(early).collect();
-        motion.shine();
+        for k in 0..motion.nodes.len() {
+            motion.nodes[k].flux = motion.flux(k);
+        }
         motion
     }
 
@@ -179,7 +193,7 @@ impl AuroraMotion {
     /// a sheet stretched to twice its length is still even to 2 %. It is at least the drift in a step, so that waves grow by an eighth in a
     /// step at most.
     pub fn thickness(&self) -> f64 {
-        let spacing = self.lengths.iter().sum::<f64>() / (self.nodes.len() - self.lengths.len()).max(1) as f64;
+        let spacing = self.layout.lengths.iter().sum::<f64>() / (self.nodes.len() - self.layout.lengths.len()).max(1) as f64;
         THICKNESS.max(spacing).max(jump(self.plan.field).abs() * STEP)
     }
 
@@ -193,14 +207,9 @@ impl AuroraMotion {
         &self.nodes
     }
 
-    /// Length of each curve at rest, km.
-    pub fn lengths(&self) -> &[f64] {
-        &self.lengths
-    }
-
-    /// First node of each curve, and after the last their number.
-    pub fn starts(&self) -> &[usize] {
-        &self.starts
+    /// Which nodes each curve has.
+    pub fn layout(&self) -> &Arc<NodeLayout> {
+        &self.layout
     }
 
     /// The nodes as they are drawn: each curve has one more before its first and one more after its last, which give its ends their
@@ -208,7 +217,7 @@ impl AuroraMotion {
     /// mirrored at the end.
     pub fn row(&self) -> impl Iterator<Item = Node> {
         let at = |curve: usize, from_start: bool, number: usize| {
-            let (first, last) = (self.starts[curve], self.starts[curve + 1] - 1);
+            let (first, last) = (self.layout.starts[curve], self.layout.starts[curve + 1] - 1);
             self.nodes[if from_start { first + number } else { last - number }]
         };
         self.links.iter().enumerate().flat_map(move |(curve, link)| {
@@ -220,7 +229,7 @@ impl AuroraMotion {
                 };
                 Node { place, ..end }
             };
-            let own = self.starts[curve]..self.starts[curve + 1];
+            let own = self.layout.starts[curve]..self.layout.starts[curve + 1];
             [beyond(true)].into_iter().chain(self.nodes[own].iter().copied()).chain([beyond(false)])
         })
     }
@@ -232,27 +241,49 @@ impl AuroraMotion {
 
     /// One step of [`STEP`] seconds.
     pub fn step(&mut self) {
-        let charges: Vec<Charge> = self.charge().collect();
-        self.lay_out(&charges);
-        self.poisson.solve(&mut self.grid);
-        self.near.sort(charges, &self.starts);
-        self.time += STEP;
-        let period = self.period();
-        for k in 0..self.nodes.len() {
-            let home = self.rest[k].2;
-            let place = self.nodes[k].place;
-            let drift = drift(self.field_at(place)).clamp_length_max(TOP_SPEED);
-            let next = place + (1.5 * drift - 0.5 * self.speeds[k]) * STEP;
-            if next.is_finite() {
-                self.nodes[k].place = home + (next - home) * (-self.renewed(k, period)).exp();
-                self.speeds[k] = drift;
-            } else {
-                self.nodes[k].place = home;
-                self.speeds[k] = DVec2::ZERO;
-                self.caught += 1;
-            }
+        while !self.part_of_step() {}
+    }
+
+    /// The next part of a step: its field, or the way of [`NODES_AT_ONCE`] nodes. True once the step is done; until then some nodes are
+    /// ahead of the others.
+    pub fn part_of_step(&mut self) -> bool {
+        if self.moved == self.nodes.len() {
+            let charges: Vec<Charge> = self.charge().collect();
+            self.lay_out(&charges);
+            self.poisson.solve(&mut self.grid);
+            self.near.sort(charges, &self.layout.starts);
+            self.time += STEP;
+            self.moved = 0;
+            return self.nodes.is_empty();
         }
-        self.shine();
+        let (period, last) = (self.period(), (self.moved + NODES_AT_ONCE).min(self.nodes.len()));
+        for k in self.moved..last {
+            self.drift(k, period);
+            self.nodes[k].flux = self.flux(k);
+        }
+        self.moved = last;
+        last == self.nodes.len()
+    }
+
+    /// Number of parts of a step.
+    pub fn parts_of_step(&self) -> usize {
+        1 + self.nodes.len().div_ceil(NODES_AT_ONCE)
+    }
+
+    /// Lets a node drift for a step, and go back to its rest as far as new electrons replace old ones.
+    fn drift(&mut self, k: usize, period: f64) {
+        let home = self.rest[k].2;
+        let place = self.nodes[k].place;
+        let drift = drift(self.field_at(place)).clamp_length_max(TOP_SPEED);
+        let next = place + (1.5 * drift - 0.5 * self.speeds[k]) * STEP;
+        if next.is_finite() {
+            self.nodes[k].place = home + (next - home) * (-self.renewed(k, period)).exp();
+            self.speeds[k] = drift;
+        } else {
+            self.nodes[k].place = home;
+            self.speeds[k] = DVec2::ZERO;
+            self.caught += 1;
+        }
     }
 
     /// Time from one surge of new electrons to the next, s.
@@ -280,7 +311,7 @@ impl AuroraMotion {
         let round = (link.total / long).round().max(1.0);
         let (values, round) = if link.closed { (round / link.total.max(1e-6), round) } else { (1.0 / long, f64::INFINITY) };
         let channel = self.plan.seed.wrapping_mul(7919).wrapping_add(link.chain as u32 * 2 + channel);
-        smooth_noise(channel, (link.start + t * self.lengths[curve]) * values - gone, round)
+        smooth_noise(channel, (link.start + t * self.layout.lengths[curve]) * values - gone, round)
     }
 
     /// The potential on the grid after the last step, V (mV/m times km), row by row from low x and y: for tests and charts.
@@ -332,8 +363,8 @@ impl AuroraMotion {
     /// The charge of each node: that of its share of the curve at rest, half as much at the ends. Stretching thins it out. It is negative,
     /// as of electrons.
     fn charge(&self) -> impl Iterator<Item = Charge> {
-        self.starts.windows(2).enumerate().flat_map(move |(curve, window)| {
-            let share = -2.0 * self.plan.field * self.lengths[curve] / (window[1] - window[0] - 1) as f64;
+        self.layout.starts.windows(2).enumerate().flat_map(move |(curve, window)| {
+            let share = -2.0 * self.plan.field * self.layout.lengths[curve] / (window[1] - window[0] - 1) as f64;
             (window[0]..window[1]).map(move |k| {
                 let part = if k == window[0] || k + 1 == window[1] { 0.5 } else { 1.0 };
                 Charge { place: self.nodes[k].place, amount: share * part * self.nodes[k].flux }
@@ -360,20 +391,18 @@ impl AuroraMotion {
         }
     }
 
-    /// Brightness that travels along the curtains: two octaves of smooth noise at different speeds, without a seam round a closed chain.
-    fn shine(&mut self) {
-        for k in 0..self.nodes.len() {
-            let (curve, t, _) = self.rest[k];
-            let link = self.links[curve];
-            let end = |joined: Option<usize>, t: f64| if joined.is_some() { 1.0 } else { smooth((t / FADE_OUT).min(1.0)) };
-            let fade = end(link.joined[0], t) * end(link.joined[1], 1.0 - t);
-            let wave = [0, 1].map(|octave: usize| {
-                let (long, passing) = WAVES[octave];
-                self.noise_along(curve, t, long, self.time / passing, octave as u32)
-            });
-            self.nodes[k].flux =
-                fade * (1.0 + self.plan.contrast.clamp(0.0, 1.0) * (WAVE_WEIGHTS[0] * wave[0] + WAVE_WEIGHTS[1] * wave[1] - 1.0));
-        }
+    /// Brightness that travels along the curtains, at a node: two octaves of smooth noise at different speeds, without a seam round a closed
+    /// chain.
+    fn flux(&self, k: usize) -> f64 {
+        let (curve, t, _) = self.rest[k];
+        let link = self.links[curve];
+        let end = |joined: Option<usize>, t: f64| if joined.is_some() { 1.0 } else { smooth((t / FADE_OUT).min(1.0)) };
+        let fade = end(link.joined[0], t) * end(link.joined[1], 1.0 - t);
+        let wave = [0, 1].map(|octave: usize| {
+            let (long, passing) = WAVES[octave];
+            self.noise_along(curve, t, long, self.time / passing, octave as u32)
+        });
+        fade * (1.0 + self.plan.contrast.clamp(0.0, 1.0) * (WAVE_WEIGHTS[0] * wave[0] + WAVE_WEIGHTS[1] * wave[1] - 1.0))
     }
 }
 

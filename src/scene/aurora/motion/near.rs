@@ -145,6 +145,7 @@ impl Near {
     /// The near field at a place, mV/m.
     pub fn field_at(&self, place: DVec2) -> DVec2 {
         let (column, row) = self.cell(place);
+        let reach = (REACH * self.sigma).powi(2);
         let mut field = DVec2::ZERO;
         for row in row.saturating_sub(1)..(row + 2).min(self.cells) {
             // Neighbouring cells of a row are one run of clusters.
@@ -152,8 +153,12 @@ impl Near {
             let last = row * self.cells + (column + 2).min(self.cells);
             for cluster in &self.sorted[self.starts[first]..self.starts[last]] {
                 let away = place - cluster.all.place;
-                if away.length_squared() > cluster.open {
-                    field += away * (self.over_distance(away) * cluster.all.amount);
+                let square = away.length_squared();
+                if square > cluster.open {
+                    // Most clusters of the cells around are out of reach.
+                    if square < reach {
+                        field += away * (self.over_distance(away) * cluster.all.amount);
+                    }
                 } else {
                     for charge in &self.charges[cluster.first..cluster.last] {
                         let away = place - charge.place;
