@@ -74,7 +74,7 @@ fn without_doppler_and_beaming_no_shift_is_looked_for() {
 
 fn compare(view: &InstanceView, planet: &Planet, history: &History, allowed: f64) -> [f64; 2] {
     let (camera, aspect, time, order) = (view.camera, view.aspect.unwrap(), 0.0, Order::ALL[0]);
-    let began = departure(view, time, history, order).unwrap();
+    let began = departure(view, time, history, order).unwrap().time;
     let shift = ImageShift::new(view, [began, time], history, order, planet.radius).unwrap();
     // What flows past a place with the rain: proper time by T of what moves.
     let slowed = |position: DVec3, velocity: DVec3| (1.0 - (velocity + position / position.length().powf(1.5)).length_squared()).sqrt();
