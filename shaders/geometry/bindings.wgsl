@@ -7,7 +7,7 @@
 @group(1) @binding(1) var vertex_table: texture_2d<u32>;
 @group(1) @binding(2) var edge_table: texture_2d<u32>;
 @group(1) @binding(3) var triangle_table: texture_2d<u32>;
-/// Chunks of 64 threads of one instance, two a texel, filled up to the size of the dispatch with NO_INSTANCE.
+/// Chunks of 64 threads of one instance, one a texel, filled up to the size of the dispatch with NO_INSTANCE.
 @group(1) @binding(4) var chunk_table: texture_2d<u32>;
 // Seven storage buffers and the arguments make eight: WebGPU guarantees no more to a stage.
 @group(1) @binding(5) var<storage, read_write> seen: array<SeenVertex>;
@@ -51,8 +51,7 @@ fn model_triangle(number: u32) -> ModelTriangle {
 }
 
 fn chunk_of(number: u32) -> Chunk {
-    let two = textureLoad(chunk_table, table_place(number / 2u), 0);
-    let words = select(two.xy, two.zw, (number & 1u) == 1u);
+    let words = textureLoad(chunk_table, table_place(number), 0);
     return Chunk(words.x, words.y);
 }
 
@@ -80,6 +79,26 @@ struct Counters {
     split: u32,
     /// Images of bodies that are drawn as if they moved more slowly, as the processor counted them.
     calmed: u32,
+    /// Images of what is held in place that show their coarsest model because a buffer was full, and those that found no room at all.
+    simpler: atomic<u32>,
+    left_out: atomic<u32>,
+    /// How much of each kind images have taken, those of the processor included (instances/held.wgsl).
+    taken: array<atomic<u32>, 7>,
+}
+
+/// Indirect arguments, one row of four words each (an indexed draw takes two).
+struct Arguments {
+    refine: vec4<u32>,
+    mesh: vec4<u32>,
+    opaque: vec4<u32>,
+    opaque_rest: vec4<u32>,
+    thin: vec4<u32>,
+    mesh_vertices: vec4<u32>,
+    thin_lists: vec4<u32>,
+    /// Over the chunks of the first three stages, where something is held in place.
+    vertices: vec4<u32>,
+    edges: vec4<u32>,
+    triangles: vec4<u32>,
 }
 
 const NO_INSTANCE: u32 = 0xffffffffu;

@@ -16,7 +16,7 @@ use crate::support::shared_table;
 fn picture(stars: &[Star], haze: f32, camera: Observer, size: [u32; 2], settings: Settings) -> ReadbackPicture {
     let surroundings = Surroundings { table: shared_table(), stars: stars.to_vec(), milky_way: vec![(1, 1, vec![haze])] };
     let mut renderer = renderer_under(&surroundings, size);
-    let input = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: None, settings };
+    let input = FrameInput { camera, time: 0.0, placed: Vec::new(), held: None, aurora: None, settings };
     renderer.picture(&input, false).unwrap()
 }
 

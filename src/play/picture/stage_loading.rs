@@ -128,6 +128,7 @@ fn rehearsal(mut stage: InMut<Stage>, now: Now) -> Vec<FrameInput> {
     let far = frame(FrameCamera::afar(state.position, 0.0, field_of_view));
     let mut thin = far.clone();
     thin.placed.iter_mut().for_each(|image| image.instance.flags |= THIN);
+    thin.held = thin.held.map(|flags| flags | THIN);
     let mut inside = own.clone();
     inside.camera.position *= INSIDE / inside.camera.radius();
     vec![far, own, thin, inside]

@@ -1,12 +1,12 @@
 //! The lists that tell the stages what there is: the objects of a frame and the chunks of their models. Plain data of the processor.
 
+use crate::render::gpu::layout::{TABLE_ROW, TABLE_ROWS};
 use crate::render::gpu::types::placed::THIN;
-use crate::render::gpu::types::{Capacity, Chunk, Counters, Instance, SeenVertex};
+use crate::render::gpu::types::{CHUNK, Capacity, Chunk, Counters, HeldFrame, Instance, SeenVertex};
 use crate::render::instances::Placed;
+use crate::render::instances::held::HeldImages;
 use crate::render::instances::local_motion::MotionNode;
 
-/// Threads of a workgroup; `@workgroup_size` of the stages.
-const LANES: u32 = 64;
 /// Groups along the first dimension of a dispatch (65,535 is the limit).
 const GROUPS: u32 = 32_768;
 
@@ -17,8 +17,10 @@ pub struct BodyLists {
     pub(super) texels: Vec<[f32; 4]>,
     /// Of vertices, edges, triangles.
     pub(super) chunks: [Vec<Chunk>; 3],
-    /// Groups to dispatch over them.
+    /// Groups to dispatch over them, if nothing is held.
     pub(super) dispatch: [[u32; 2]; 3],
+    /// What is held, with the room that its images have.
+    pub(super) held: Option<HeldFrame>,
     /// Vertices and edges of all models.
     pub(super) states: u32,
     /// Where the counters begin.
@@ -30,13 +32,15 @@ pub struct BodyLists {
 }
 
 impl BodyLists {
-    /// Of what is `placed`, with room for `budget` vertices of the mesh stage; no buffer may be larger than `most` bytes.
-    pub fn new(placed: &[Placed], budget: u32, most: u64) -> BodyLists {
+    /// Of what is `placed` and, behind it, what is `held`, with room for `budget` vertices of the mesh stage; no buffer may be larger than
+    /// `most` bytes.
+    pub fn new(placed: &[Placed], held: Option<HeldImages>, budget: u32, most: u64) -> BodyLists {
         let mut instances: Vec<Instance> = Vec::with_capacity(placed.len());
         let mut chunks: [Vec<Chunk>; 3] = Default::default();
         let drawn = || placed.iter().filter(|item| item.instance.is_finite());
-        // States of edges lie behind those of vertices.
+        // States of edges lie behind those of all vertices.
         let all_vertices: u32 = drawn().map(|item| item.model.vertices[1]).sum();
+        let vertices_end = held.map_or(all_vertices, |held| held.end(1, all_vertices, vertex_limit(budget, most)));
         // What is not finite is left out here; counted with what the shaders leave out.
         let refused = (placed.len() - drawn().count()) as u32;
         let calmed = placed.iter().filter(|item| item.calmed).count() as u32;
@@ -44,14 +48,14 @@ impl BodyLists {
         for item in drawn() {
             let model = item.model;
             let mut instance = item.instance;
-            (instance.first_seen, instance.first_state) = (vertices, all_vertices + edges);
+            (instance.first_seen, instance.first_state) = (vertices, vertices_end + edges);
             [instance.first_vertex, instance.vertex_count] = model.vertices;
             [instance.first_edge, instance.edge_count] = model.edges;
             [instance.first_triangle, instance.triangle_count] = model.triangles;
             instance.first_material = model.material;
             let number = instances.len() as u32;
             for (list, count) in chunks.iter_mut().zip([model.vertices[1], model.edges[1], model.triangles[1]]) {
-                list.extend((0..count.div_ceil(LANES)).map(|chunk| Chunk { instance: number, first: chunk * LANES }));
+                list.extend((0..count.div_ceil(CHUNK)).map(|chunk| Chunk { instance: number, first: chunk * CHUNK }));
             }
             vertices += model.vertices[1];
             edges += model.edges[1];
@@ -68,21 +72,59 @@ impl BodyLists {
             let count = chunks[kind].len() as u32;
             [count.min(GROUPS), count.div_ceil(GROUPS)]
         });
-        for (list, groups) in chunks.iter_mut().zip(dispatch) {
-            // Two are a texel.
-            list.resize((groups[0] * groups[1]).next_multiple_of(2) as usize, Chunk { instance: u32::MAX, first: 0 });
+        let mut texels = instance_table(&mut instances, drawn().map(|item| &item.nodes[..]));
+        if let Some(held) = held {
+            // Instances begin at multiples of their size.
+            texels.resize(texels.len().next_multiple_of(INSTANCE_TEXELS), [0.0; 4]);
+            // Any of their images may be thin.
+            if held.frame.has_thin == 1 || held.frame.flags & THIN != 0 {
+                thin_across[..=held.frame.orders as usize].fill(true);
+            }
+        } else {
+            for (list, groups) in chunks.iter_mut().zip(dispatch) {
+                list.resize((groups[0] * groups[1]) as usize, Chunk { instance: u32::MAX, first: 0 });
+            }
         }
+        let [first, second, third] = [0, 1, 2].map(|kind: usize| chunks[kind].len() as u32);
+        let taken = [(texels.len() / INSTANCE_TEXELS) as u32, vertices, vertices_end + edges, triangles, first, second, third];
+        let room = held.map_or(taken, |held| {
+            let chunks = TABLE_CHUNKS as u64;
+            let limits = [(TABLE_TEXELS / INSTANCE_TEXELS) as u64, vertices_end.into(), most / 16, most, chunks, chunks, chunks];
+            std::array::from_fn(|kind| held.end(kind, taken[kind], limits[kind]))
+        });
         BodyLists {
-            texels: instance_table(&mut instances, drawn().map(|item| &item.nodes[..])),
+            texels,
             chunks,
             dispatch,
-            states: vertices + edges,
+            held: held.map(|held| HeldFrame { room, ..held.frame }),
+            states: room[2],
             // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
-            counters: Counters { vertices, model_vertices: vertices, turn: 1, caught: refused, calmed, ..Counters::default() },
+            counters: Counters { vertices, model_vertices: vertices, turn: 1, caught: refused, calmed, taken, ..Counters::default() },
             thin_across,
-            capacity: capacity_for(budget, vertices, triangles, most),
+            capacity: capacity_for(budget, room[1], room[3], most),
         }
     }
+
+    /// Texels of the tables of instances and of chunks, with the room of what is held and what fills up its dispatches.
+    pub(super) fn texels_with_room(&self) -> [usize; 4] {
+        let room = |kind: usize| self.held.map_or(0, |held| held.room[kind] as usize);
+        [room(0) * INSTANCE_TEXELS, room(4) + FILLED, room(5) + FILLED, room(6) + FILLED]
+    }
+}
+
+/// Texels of an instance; `INSTANCE_TEXELS` of WGSL.
+const INSTANCE_TEXELS: usize = size_of::<Instance>() / size_of::<[f32; 4]>();
+/// Texels of the largest table.
+const TABLE_TEXELS: usize = TABLE_ROW * TABLE_ROWS;
+/// Chunks that fill up a dispatch of several rows, at most one a row.
+const FILLED: usize = TABLE_TEXELS / GROUPS as usize;
+/// Chunks of the longest list.
+const TABLE_CHUNKS: usize = TABLE_TEXELS - FILLED;
+
+/// The most vertices that models may have where something is held: an eighth of the largest buffer is left to the mesh stage.
+fn vertex_limit(budget: u32, most: u64) -> u64 {
+    let all = most / size_of::<SeenVertex>() as u64;
+    all - u64::from(budget).min(all / 8)
 }
 
 /// Room beyond that of the models for `budget` vertices of the mesh stage. A vertex is in at most two triangles of three indices; blocks of

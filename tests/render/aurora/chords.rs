@@ -41,7 +41,7 @@ struct End {
 
 /// Of each image, part, pole and kind the ends of its chords from above, as the shader has them.
 fn ends_of(renderer: &mut Renderer, camera: Observer, frame: &AuroraFrame, settings: &Settings) -> Vec<Vec<End>> {
-    let input = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: Some(frame.clone()), settings: *settings };
+    let input = FrameInput { camera, time: 0.0, placed: Vec::new(), held: None, aurora: Some(frame.clone()), settings: *settings };
     renderer.picture(&input, false).unwrap();
     let bytes = readback::buffer(&GPU, renderer.aurora().references()).unwrap();
     // `Reference` of streaks.wgsl. A buffer that grew has room to spare.

@@ -19,7 +19,8 @@ use lensrunner::render::gpu::library::{Library, Values, Worldlines};
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::gpu::targets::TILE;
 use lensrunner::render::gpu::types::{
-    self, Adaptation, Cap, Capacity, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, SeenVertex, Star,
+    self, Adaptation, Cap, Capacity, CellDraws, Chunk, Counters, Frame, HeldBody, HeldFrame, HeldModel, Instance, KINDS, Material,
+    ModelTriangle, ModelVertex, SeenVertex, Star,
 };
 use lensrunner::render::gpu::types::{flags, placed};
 use lensrunner::render::models::ALONE;
@@ -56,7 +57,6 @@ fn composed(text: &str) -> Module {
 fn with_struct(path: &str) -> Module {
     match path {
         "sky::cells::CellDraws" => Pass::SkyCells.module(),
-        "geometry::arguments::Arguments" => Pass::Arguments.module(),
         "disk::arcs::arguments::DiskArguments" => Pass::DiskArguments.module(),
         "disk::polygons::Turning" => Pass::DiskPolygons.module(),
         "disk::sprites::Sprite" | "disk::sprites::SpriteImage" => Pass::DiskSprites.module(),
@@ -96,7 +96,21 @@ fn structs_have_one_layout_in_both_languages() {
         (
             "geometry::bindings::Counters",
             fields!(Counters: vertices, indices, work, thin, pieces, turn, coarse, cut, caught, model_vertices, lost, outside, split,
-            calmed),
+            calmed, simpler, left_out, taken),
+        ),
+        (
+            "instances::held::HeldBody",
+            fields!(HeldBody: position, reach, position_rest, scale, attitude, light ["light_red", "light_green", "light_blue"], first_model,
+            model_count, object, unused),
+        ),
+        (
+            "instances::held::HeldModel",
+            fields!(HeldModel: first_vertex, vertex_count, first_edge, edge_count, first_triangle, triangle_count, first_material, below),
+        ),
+        (
+            "instances::held::HeldFrame",
+            fields!(HeldFrame: camera, bodies, camera_rest, images, orders, flags, bounded, stand_ins_drawn_out, thin_below, coarse_below,
+            least_width, allowed, strictness, has_thin, room, unused ["unused_a", "unused_b", "unused_c"]),
         ),
         ("gpu::types::Material", fields!(Material: base, alpha, emissive, roughness, metallic, layer, temperature, nozzle)),
         (
@@ -149,7 +163,7 @@ fn structs_that_only_shaders_know_have_the_sizes_that_rust_reserves() {
         ("gpu::types::Piece", types::PIECE_BYTES),
         ("gpu::types::WorkItem", types::WORK_BYTES),
         ("gpu::types::ThinVertex", types::THIN_BYTES),
-        ("geometry::arguments::Arguments", types::ARGUMENTS_BYTES),
+        ("geometry::bindings::Arguments", types::ARGUMENTS_BYTES),
         ("gpu::types::SkyCorner", types::SKY_CORNER_BYTES),
         ("disk::arcs::arguments::DiskArguments", disk::ARGUMENTS_BYTES),
         ("disk::types::Segments", disk::SEGMENTS_BYTES),
@@ -215,6 +229,7 @@ fn constants_have_one_value_in_both_languages() {
         ("gpu::types::SIDE_AGAINST", whole(outside::AGAINST)),
         ("gpu::types::SIDE_LONE", whole(outside::LONE)),
         ("geometry::bindings::ALONE", whole(ALONE)),
+        ("instances::held::KINDS", KINDS as f64),
         ("post_process::tiles::TILE", whole(TILE)),
         ("gpu::colour::BLACKBODY_COLDEST", f64::from(BLACKBODY_COLDEST)),
         ("gpu::colour::BLACKBODY_HOTTEST", f64::from(BLACKBODY_HOTTEST)),

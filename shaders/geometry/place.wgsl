@@ -1,0 +1,450 @@
+// Stage 0, one thread for each body that is held in place and each of its images: does for it what `instances_of` of
+// src/render/instances/mod.rs does for bodies that fly. What may be seen is appended to the instances of the processor, and to the lists of
+// the stages.
+
+#import lensrunner::chosen::method::method_ray
+#import lensrunner::geometry::bindings::{Arguments, Counters, NO_INSTANCE}
+#import lensrunner::geometry::clip::finite_vector
+#import lensrunner::gpu::bindings::{frame, TABLE_ROW}
+#import lensrunner::gpu::types::{
+    Cap, Instance, INSTANCE_MINUS, INSTANCE_NARROW_RING, INSTANCE_STATIC, INSTANCE_THIN, INSTANCE_TWO_SIDED,
+}
+#import lensrunner::instances::held::{
+    HeldBody, HeldFrame, HeldModel, KINDS, TAKEN_CHUNKS, TAKEN_EDGES, TAKEN_IMAGES, TAKEN_TRIANGLES, TAKEN_VERTICES,
+}
+#import lensrunner::instances::instance::INSTANCE_TEXELS
+#import lensrunner::instances::local_motion::turned_by
+#import lensrunner::instances::view::{
+    angle_of_sine, anywhere, extent_of, farthest_in_patch, MARGIN, may_be_seen, SCREEN_MARGIN, seen_cap, turn_of,
+}
+#import lensrunner::lensing::closed_form::{angle, HALF_TURN, sine_cosine}
+#import lensrunner::lensing::lookup::{OLD, YOUNG}
+
+@group(1) @binding(0) var<storage, read> held_frame: HeldFrame;
+@group(1) @binding(1) var<storage, read> bodies: array<HeldBody>;
+@group(1) @binding(2) var<storage, read> models: array<HeldModel>;
+@group(1) @binding(3) var<storage, read_write> counters: Counters;
+@group(1) @binding(4) var<storage, read_write> arguments: Arguments;
+@group(1) @binding(5) var instance_table: texture_storage_2d<rgba32uint, write>;
+@group(1) @binding(6) var vertex_chunks: texture_storage_2d<rg32uint, write>;
+@group(1) @binding(7) var edge_chunks: texture_storage_2d<rg32uint, write>;
+@group(1) @binding(8) var triangle_chunks: texture_storage_2d<rg32uint, write>;
+
+/// An image of a body, before it has a place in the buffers.
+struct Image {
+    instance: Instance,
+    shown: bool,
+    /// Of the list of models: what is drawn of it, and what is if there is no room.
+    model: u32,
+    coarsest: u32,
+}
+
+/// What the images of this group take together, by kind; and where it begins, if there was room for all.
+var<workgroup> wanted: array<atomic<u32>, 7>;
+var<workgroup> granted: array<u32, 7>;
+var<workgroup> is_granted: u32;
+/// Chunks to list: the instance of each thread, and for each kind the first one and how many.
+var<workgroup> chunk_instances: array<u32, 64>;
+var<workgroup> first_chunks: array<vec3<u32>, 64>;
+var<workgroup> chunk_counts: array<vec3<u32>, 64>;
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    var image = image_of((group.y * groups.x + group.x) * 64u + lane);
+    var need = needed(image.shown, image.model);
+    var first = array<u32, 7>();
+    for (var kind = 0u; kind < KINDS; kind++) {
+        first[kind] = atomicAdd(&wanted[kind], need[kind]);
+    }
+    workgroupBarrier();
+    if lane == 0u {
+        var all = array<u32, 7>();
+        for (var kind = 0u; kind < KINDS; kind++) {
+            all[kind] = atomicLoad(&wanted[kind]);
+        }
+        let taken = take(all);
+        is_granted = select(0u, 1u, taken.all);
+        granted = taken.first;
+    }
+    workgroupBarrier();
+    if is_granted == 1u {
+        for (var kind = 0u; kind < KINDS; kind++) {
+            first[kind] += granted[kind];
+        }
+    } else if image.shown {
+        // Each for itself, more coarsely if need be.
+        var fits = false;
+        for (var attempt = 0u; attempt < 2u && !fits; attempt++) {
+            need = needed(true, image.model);
+            let taken = take(need);
+            first = taken.first;
+            fits = taken.all;
+            if !fits && attempt == 0u && image.model != image.coarsest {
+                atomicAdd(&counters.simpler, 1u);
+                image.model = image.coarsest;
+            } else if !fits {
+                break;
+            }
+        }
+        if !fits {
+            atomicAdd(&counters.left_out, 1u);
+            image.shown = false;
+        }
+    }
+    chunk_instances[lane] = first[TAKEN_IMAGES];
+    first_chunks[lane] = vec3<u32>(first[TAKEN_CHUNKS], first[TAKEN_CHUNKS + 1u], first[TAKEN_CHUNKS + 2u]);
+    chunk_counts[lane] = select(vec3<u32>(0u), vec3<u32>(need[TAKEN_CHUNKS], need[TAKEN_CHUNKS + 1u], need[TAKEN_CHUNKS + 2u]), image.shown);
+    if image.shown {
+        let model = models[image.model];
+        image.instance.first_seen = first[TAKEN_VERTICES];
+        image.instance.first_state = first[TAKEN_EDGES];
+        image.instance.first_vertex = model.first_vertex;
+        image.instance.vertex_count = model.vertex_count;
+        image.instance.first_edge = model.first_edge;
+        image.instance.edge_count = model.edge_count;
+        image.instance.first_triangle = model.first_triangle;
+        image.instance.triangle_count = model.triangle_count;
+        image.instance.first_material = model.first_material;
+        write_instance(first[TAKEN_IMAGES], image.instance);
+    }
+    workgroupBarrier();
+    // All threads together, for a model may have many.
+    for (var of_lane = 0u; of_lane < 64u; of_lane++) {
+        let counts = chunk_counts[of_lane];
+        let begin = first_chunks[of_lane];
+        let instance = chunk_instances[of_lane];
+        for (var chunk = lane; chunk < max(counts.x, max(counts.y, counts.z)); chunk += 64u) {
+            let words = vec4<u32>(instance, chunk * 64u, 0u, 0u);
+            if chunk < counts.x {
+                textureStore(vertex_chunks, table_place(begin.x + chunk), words);
+            }
+            if chunk < counts.y {
+                textureStore(edge_chunks, table_place(begin.y + chunk), words);
+            }
+            if chunk < counts.z {
+                textureStore(triangle_chunks, table_place(begin.z + chunk), words);
+            }
+        }
+    }
+}
+
+/// After all: how much the stages have to do.
+@compute @workgroup_size(1)
+fn finish() {
+    let vertices = atomicLoad(&counters.taken[TAKEN_VERTICES]);
+    atomicStore(&counters.vertices, vertices);
+    counters.model_vertices = vertices;
+    arguments.vertices = dispatch_of(0u);
+    arguments.edges = dispatch_of(1u);
+    arguments.triangles = dispatch_of(2u);
+}
+
+/// Most groups along one dimension of a dispatch; as in src/render/geometry/lists.rs.
+const GROUPS: u32 = 32768u;
+
+/// The dispatch over the chunks of a kind; those beyond the last are made none.
+fn dispatch_of(kind: u32) -> vec4<u32> {
+    let count = atomicLoad(&counters.taken[TAKEN_CHUNKS + kind]);
+    let rows = max((count + GROUPS - 1u) / GROUPS, 1u);
+    let columns = (count + rows - 1u) / rows;
+    let none = vec4<u32>(NO_INSTANCE, 0u, 0u, 0u);
+    for (var chunk = count; chunk < rows * columns; chunk++) {
+        switch kind {
+            case 0u: { textureStore(vertex_chunks, table_place(chunk), none); }
+            case 1u: { textureStore(edge_chunks, table_place(chunk), none); }
+            default: { textureStore(triangle_chunks, table_place(chunk), none); }
+        }
+    }
+    return vec4<u32>(columns, rows, 1u, 0u);
+}
+
+fn table_place(texel: u32) -> vec2<u32> {
+    return vec2<u32>(texel % TABLE_ROW, texel / TABLE_ROW);
+}
+
+/// What an image takes of each kind.
+fn needed(shown: bool, number: u32) -> array<u32, 7> {
+    let model = models[number];
+    let some = select(0u, 1u, shown);
+    return array<u32, 7>(some, some * model.vertex_count, some * model.edge_count, some * model.triangle_count,
+        some * ((model.vertex_count + 63u) / 64u), some * ((model.edge_count + 63u) / 64u), some * ((model.triangle_count + 63u) / 64u));
+}
+
+/// Where what was taken begins, if there was room for all of it.
+struct Taken {
+    first: array<u32, 7>,
+    all: bool,
+}
+
+fn take(need: array<u32, 7>) -> Taken {
+    var asked = need;
+    var taken: Taken;
+    for (var kind = 0u; kind < KINDS; kind++) {
+        if atomicLoad(&counters.taken[kind]) + asked[kind] > held_frame.room[kind] {
+            return taken;
+        }
+    }
+    for (var kind = 0u; kind < KINDS; kind++) {
+        var old = atomicLoad(&counters.taken[kind]);
+        loop {
+            // Another took the rest meanwhile. What was taken of other kinds stays unused.
+            if old + asked[kind] > held_frame.room[kind] {
+                return taken;
+            }
+            let exchange = atomicCompareExchangeWeak(&counters.taken[kind], old, old + asked[kind]);
+            if exchange.exchanged {
+                break;
+            }
+            old = exchange.old_value;
+        }
+        taken.first[kind] = old;
+    }
+    taken.all = true;
+    return taken;
+}
+
+/// Factor on the ball's radius for bounds.
+const LARGER: f32 = 1.1;
+/// A ball whose radius is below this share of its distances from the axis and from the horizon is seen in one small patch.
+const FAR: f32 = 0.3;
+/// Number of points that are looked up for the extent, and those on the ball's circle in the plane of the axis for bounds.
+const EXTENT_POINTS: u32 = 5u;
+const PLACES: u32 = 32u;
+/// Least radius, in r_s, of points that send light to a camera outside: of those of bounds, and of the extent.
+const LEAST_RADIUS: f32 = 1.0001;
+const LEAST_LOW_SIDE: f32 = 1.001;
+/// Farther than this from the hole, in r_s, light comes almost straight from the camera's side.
+const NEAR_FROM: f32 = 3.0;
+/// As in src/render/instances/mod.rs: roundings of a point and of what is put beside them, widths in pixels, and strictness.
+const BESIDE: f32 = 4.0;
+const ROUNDING: f32 = 4e-7;
+const NARROW_RING_BELOW: f32 = 10.0;
+const THIN_STRICTNESS: f32 = 4.0;
+const NARROW_IMAGE_BELOW: f32 = 16.0;
+const MOST_NARROW_STRICTNESS: f32 = 8.0;
+
+/// A ball by the axis of hole and camera.
+struct Ball {
+    /// From the camera outward; the distance from the axis; from the hole along the axis; r.
+    along: f32,
+    across: f32,
+    height: f32,
+    radius: f32,
+    reach: f32,
+}
+
+/// The image of a thread: bodies first, then their next image.
+fn image_of(thread: u32) -> Image {
+    var image: Image;
+    if thread >= held_frame.bodies * held_frame.images {
+        return image;
+    }
+    let body = bodies[thread % held_frame.bodies];
+    let number = thread / held_frame.bodies;
+    let minus = number == held_frame.orders;
+    let order = select(number + 1u, 1u, minus);
+    let reach = body.reach;
+    let offset = (body.position - held_frame.camera) + (body.position_rest - held_frame.camera_rest);
+    let distance = length(offset);
+    let r = length(body.position);
+    let from_camera = frame.camera_radius;
+    // From inside the horizon higher orders show only what is outside of it, and light of E < 0 only what is inside.
+    if (order > 1u && r + reach < 1.0) || (minus && r - reach >= 1.0) {
+        return image;
+    }
+    // The camera is on the axis: the shorter way tells better how far a position is from there.
+    let way = select(body.position, offset, distance < r);
+    let beside = vec2<f32>(dot(way, frame.side_a), dot(way, frame.side_b));
+    let ball = Ball(dot(offset, frame.outward), length(beside), dot(body.position, frame.outward), r, reach);
+    let age = select(YOUNG, OLD, minus);
+    let low_side = select(max(r - reach, LEAST_LOW_SIDE), max(r - reach, from_camera + 0.01 * (r - from_camera)), from_camera < 1.0);
+    let larger = LARGER * reach;
+    let is_bounded = held_frame.bounded == 1u && r >= larger && distance >= larger;
+    let is_far = larger < FAR * min(ball.across, r - 1.0);
+    let surrounds = reach >= r || distance <= reach;
+    var extent = anywhere();
+    var low = 0.0;
+    var high = 0.0;
+    var centre = 0.0;
+    var path = 0.0;
+    var known = true;
+    // Nothing is looked up of what surrounds the hole or the camera.
+    var count = select(EXTENT_POINTS, 0u, surrounds);
+    for (var i = 0u; i < count; i++) {
+        var point = vec3<f32>(0.0);
+        if i < EXTENT_POINTS {
+            point = point_of_extent(ball, low_side, i);
+        } else {
+            point = point_of_bounds(ball, larger, i - EXTENT_POINTS);
+        }
+        let ray = method_ray(point.x, point.y, point.z, order, age);
+        let psi = angle(ray.sin_psi, ray.cos_psi, 1.0);
+        known = known && ray.valid;
+        centre = select(centre, psi, i == 0u);
+        path = select(path, ray.delay, i == 0u);
+        let begins = i == 0u || i == EXTENT_POINTS;
+        low = select(min(low, psi), psi, begins);
+        high = select(max(high, psi), psi, begins);
+        if i + 1u == EXTENT_POINTS {
+            // If a part of the object is not seen, its image may end anywhere.
+            if known {
+                extent = extent_of(low, high, centre, path, beside, r, reach, order);
+            }
+            if !may_be_seen(extent.look, MARGIN * extent.radius, SCREEN_MARGIN) {
+                return image;
+            }
+            known = is_bounded && !is_far;
+            count += select(0u, PLACES + select(2u, 0u, larger < ball.across), known);
+        }
+    }
+    let width = extent.width;
+    if width < held_frame.least_width && order > 1u {
+        return image;
+    }
+    var instance: Instance;
+    if is_bounded && is_far {
+        instance.bound_look = seen_cap(extent.look, MARGIN * extent.radius);
+    } else if known && !surrounds {
+        let round = select(HALF_TURN, angle_of_sine(larger, ball.across), larger < ball.across);
+        let turned = turn_of(order) / ball.across;
+        let side = select(frame.side_a, (frame.side_a * beside.x + frame.side_b * beside.y) * turned, larger < ball.across);
+        let middle = sine_cosine(0.5 * (low + high));
+        instance.bound_high = seen_cap(frame.outward, high);
+        instance.bound_low = seen_cap(-frame.outward, HALF_TURN - low);
+        instance.bound_look = seen_cap(frame.outward * middle.y + side * middle.x, farthest_in_patch(low, high, round));
+    }
+    instance.offset = offset;
+    instance.position = body.position;
+    instance.gamma = 1.0;
+    let x = turned_by(body.attitude, vec3<f32>(1.0, 0.0, 0.0));
+    let y = turned_by(body.attitude, vec3<f32>(0.0, 1.0, 0.0));
+    let z = turned_by(body.attitude, vec3<f32>(0.0, 0.0, 1.0));
+    instance.turn_x = x;
+    instance.turn_y = y;
+    instance.turn_z = z;
+    instance.shape_x = x * body.scale;
+    instance.shape_y = y * body.scale;
+    instance.shape_z = z * body.scale;
+    instance.light_red = body.light_red;
+    instance.light_green = body.light_green;
+    instance.light_blue = body.light_blue;
+    instance.order = order;
+    instance.object = body.object;
+    instance.rounding = ROUNDING * reach;
+    instance.across_a = beside.x + 0.79 * BESIDE * instance.rounding;
+    instance.across_b = beside.y + 0.61 * BESIDE * instance.rounding;
+    let whole = abs(body.position.z) > MARGIN * reach;
+    instance.crossings = select(-1.0, f32(plane_crossings(frame.outward.z, body.position.z, order)), whole);
+    let is_thin = width < held_frame.thin_below && held_frame.has_thin == 1u;
+    instance.flags = INSTANCE_STATIC | held_frame.flags | select(0u, INSTANCE_TWO_SIDED, distance < reach)
+        | select(0u, INSTANCE_MINUS, minus)
+        | select(select(0u, INSTANCE_NARROW_RING, width < NARROW_RING_BELOW && order > 1u), INSTANCE_THIN, is_thin);
+    instance.strictness = held_frame.strictness
+        * select(clamp(NARROW_IMAGE_BELOW / width, 1.0, MOST_NARROW_STRICTNESS), THIN_STRICTNESS, is_thin);
+    let has_numbers = finite_vector(offset) && finite_vector(vec3<f32>(beside, instance.strictness))
+        && finite_vector(instance.bound_high.middle + instance.bound_low.middle + instance.bound_look.middle);
+    if !has_numbers {
+        atomicAdd(&counters.caught, 1u);
+        return image;
+    }
+    image.instance = instance;
+    image.shown = true;
+    image.coarsest = body.first_model;
+    image.model = body.first_model + body.model_count - 1u;
+    if reach < 0.1 * r {
+        image.model = model_for(body, width, order == 1u && r > NEAR_FROM && ball.height > 0.0);
+    }
+    return image;
+}
+
+/// Point i of the extent of a ball, as `method_ray` takes it: its centre, its outermost points on both sides in the plane of the axis, its
+/// nearest to the hole, and its farthest.
+fn point_of_extent(ball: Ball, low_side: f32, i: u32) -> vec3<f32> {
+    let sine = ball.reach / ball.radius;
+    let cosine = sqrt(max((ball.radius - ball.reach) * (ball.radius + ball.reach), 0.0)) / ball.radius;
+    if i == 1u || i == 2u {
+        // Towards the axis before the hole, or behind it.
+        let towards = select(-1.0, 1.0, i == 1u);
+        let across = ball.across * cosine - ball.height * sine * towards;
+        if across < 0.0 {
+            // Beyond the axis it is the point there.
+            let more = towards * ball.across * ball.across / (ball.radius + towards * ball.height);
+            return vec3<f32>(ball.along + more, 0.0, towards * ball.radius);
+        }
+        let more = ball.across * sine * towards - ball.height * (sine * sine / (1.0 + cosine));
+        return vec3<f32>(ball.along + more, across, ball.height + more);
+    }
+    let share = select(select(sine, (low_side - ball.radius) / ball.radius, i == 3u), 0.0, i == 0u);
+    return vec3<f32>(ball.along + ball.height * share, ball.across * (1.0 + share), ball.height * (1.0 + share));
+}
+
+/// Point i of the circle round a ball in the plane of the axis, then where that meets the axis.
+fn point_of_bounds(ball: Ball, reach: f32, i: u32) -> vec3<f32> {
+    let turned = sine_cosine(2.0 * HALF_TURN * f32(i) / f32(PLACES) - HALF_TURN) * reach;
+    let half = sqrt(max((reach - ball.across) * (reach + ball.across), 0.0));
+    let on_axis = i >= PLACES;
+    let along = select(turned.y, select(half, -half, i == PLACES), on_axis);
+    let across = select(abs(ball.across + turned.x), 0.0, on_axis);
+    let height = ball.height + along;
+    let nearer = max(LEAST_RADIUS / max(length(vec2<f32>(height, across)), 1e-6), 1.0);
+    return vec3<f32>(ball.along + along + height * (nearer - 1.0), across * nearer, height * nearer);
+}
+
+/// How often light of an image order crosses the plane z = 0 on its way from a height to that of the camera.
+fn plane_crossings(camera_height: f32, height: f32, order: u32) -> u32 {
+    let is_across = (height < 0.0) != (camera_height < 0.0);
+    return select(order, order - 1u, is_across == (order % 2u == 0u));
+}
+
+/// What is drawn of a body in an image `width` pixels wide: the first that may stand for it in one so narrow, or itself.
+fn model_for(body: HeldBody, width: f32, is_near: bool) -> u32 {
+    let full = body.first_model + body.model_count - 1u;
+    if width < held_frame.coarse_below {
+        return body.first_model;
+    }
+    if width >= held_frame.thin_below && (is_near || held_frame.stand_ins_drawn_out == 1u) {
+        for (var model = body.first_model; model < full; model++) {
+            if width < held_frame.allowed * models[model].below {
+                return model;
+            }
+        }
+    }
+    return full;
+}
+
+/// Writes an instance where `instance_at` reads it.
+fn write_instance(index: u32, of: Instance) {
+    write_numbers(index, 0u, vec4<f32>(of.offset, of.delay));
+    write_numbers(index, 1u, vec4<f32>(of.position, of.engines_off));
+    write_numbers(index, 2u, vec4<f32>(of.velocity, of.scale));
+    write_numbers(index, 3u, vec4<f32>(of.acceleration, of.across_a));
+    write_numbers(index, 4u, vec4<f32>(of.jerk, of.across_b));
+    write_numbers(index, 5u, vec4<f32>(of.snap, of.crossings));
+    write_numbers(index, 6u, vec4<f32>(of.momentum, of.gamma));
+    write_numbers(index, 7u, vec4<f32>(of.contraction, of.rounding));
+    write_numbers(index, 8u, vec4<f32>(of.force, of.strays));
+    write_numbers(index, 9u, vec4<f32>(of.spin, of.spin_slack));
+    write_numbers(index, 10u, vec4<f32>(of.shape_x, of.strictness));
+    write_numbers(index, 11u, vec4<f32>(of.shape_y, of.first_node));
+    write_numbers(index, 12u, vec4<f32>(of.shape_z, of.nodes_per_time));
+    write_numbers(index, 13u, vec4<f32>(of.turn_x, of.node_intervals));
+    write_numbers(index, 14u, vec4<f32>(of.turn_y, 0.0));
+    write_numbers(index, 15u, vec4<f32>(of.turn_z, 0.0));
+    write_numbers(index, 16u, of.light_red);
+    write_numbers(index, 17u, of.light_green);
+    write_numbers(index, 18u, of.light_blue);
+    write_numbers(index, 19u, vec4<f32>(of.bound_high.middle, of.bound_high.rim));
+    write_numbers(index, 20u, vec4<f32>(of.bound_low.middle, of.bound_low.rim));
+    write_numbers(index, 21u, vec4<f32>(of.bound_look.middle, of.bound_look.rim));
+    write_words(index, 22u, vec4<u32>(of.order, of.object, of.first_seen, of.first_state));
+    write_words(index, 23u, vec4<u32>(of.first_vertex, of.vertex_count, of.first_edge, of.edge_count));
+    write_words(index, 24u, vec4<u32>(of.first_triangle, of.triangle_count, of.first_material, of.flags));
+}
+
+fn write_numbers(index: u32, k: u32, row: vec4<f32>) {
+    write_words(index, k, bitcast<vec4<u32>>(row));
+}
+
+fn write_words(index: u32, k: u32, row: vec4<u32>) {
+    textureStore(instance_table, table_place(index * INSTANCE_TEXELS + k), row);
+}

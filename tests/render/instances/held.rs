@@ -1,0 +1,219 @@
+//! What is held: the card places it as the processor would.
+
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+
+use glam::{DQuat, DVec3};
+use lensrunner::lensing::Slice;
+use lensrunner::lensing::methods::{self, flat};
+use lensrunner::render::frame::FrameInput;
+use lensrunner::render::gpu::readback;
+use lensrunner::render::gpu::shaders::Pass;
+use lensrunner::render::gpu::types::placed::MINUS;
+use lensrunner::render::gpu::types::{Counters, HeldFrame, Instance};
+use lensrunner::render::gpu::layout;
+use lensrunner::render::instances::held::HeldBodies;
+use lensrunner::render::instances::{DrawnObject, Illumination, InstanceView, ObjectMotion, StandIn, instances_of};
+use lensrunner::render::models::ModelSet;
+use lensrunner::render::models::coarse::stand_ins;
+use lensrunner::render::renderer::SceneUpload;
+use lensrunner::render::settings::Settings;
+use lensrunner::render::stage::static_camera;
+use lensrunner::scene::Material;
+use lensrunner::scene::model::shapes;
+use lensrunner::spacetime::Observer;
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+
+use crate::gpu::GPU;
+use crate::render::support::{renderer, settings};
+use crate::twin::run_with;
+
+const SIZE: [u32; 2] = [320, 180];
+
+fn direction(random: &mut StdRng) -> DVec3 {
+    let (z, azimuth) = (random.random_range(-1.0..1.0f64), TAU * random.random::<f64>());
+    let across = (1.0 - z * z).sqrt();
+    DVec3::new(across * azimuth.cos(), across * azimuth.sin(), z)
+}
+
+fn attitude(random: &mut StdRng) -> DQuat {
+    DQuat::from_axis_angle(direction(random), TAU * random.random::<f64>())
+}
+
+/// Where bodies are held for a camera: anywhere from next to the horizon, on the axis of hole and camera before and behind it, near the
+/// photon sphere, and round the camera.
+fn place(random: &mut StdRng, k: usize, camera: &Observer) -> (DVec3, f64) {
+    let n = camera.position.normalize();
+    let far = (1.01f64.ln() + random.random::<f64>() * 200f64.ln()).exp();
+    let size = (1e-3f64.ln() + random.random::<f64>() * 2000f64.ln()).exp();
+    match k % 8 {
+        0 => (n * far, 0.3 * size),
+        1 => (-n * far, size),
+        2 => (direction(random) * random.random_range(1.4..1.6), 0.2 * size),
+        3 => (direction(random) * random.random_range(1.002..1.1), 0.1 * size),
+        4 => (camera.position + direction(random) * 3.0 * size, size),
+        5 => ((-n * far + direction(random) * 0.3 * size).clamp_length_min(1.01), size),
+        _ => (direction(random) * far, 0.5 * size),
+    }
+}
+
+fn cameras(random: &mut StdRng) -> Vec<Observer> {
+    let mut cameras: Vec<Observer> = [0.55, 0.95, 1.05, 1.5, 4.0, 30.0, 400.0]
+        .map(|l| static_camera(direction(random) * l, direction(random), DVec3::Y, random.random_range(0.6..1.8)))
+        .into();
+    cameras.push(Observer { momentum: direction(random) * 1.5, ..cameras[4] });
+    cameras
+}
+
+/// The instances that the card has made, by object, order and the sign of E.
+fn made(bytes: &[u8], count: u32) -> HashMap<[u32; 3], Instance> {
+    let all = bytes.chunks_exact(size_of::<Instance>()).take(count as usize).map(bytemuck::pod_read_unaligned::<Instance>);
+    all.map(|instance| ([instance.object, instance.order, instance.flags & MINUS], instance)).collect()
+}
+
+/// The largest difference of some numbers.
+fn apart(a: &[f32], b: &[f32]) -> f32 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+}
+
+#[test]
+fn the_card_places_what_is_held_as_the_processor_would() {
+    let mut random = StdRng::seed_from_u64(55);
+    let mut renderer = renderer(SIZE);
+    let mut models = ModelSet::default();
+    let ball = shapes::icosphere(1280, Material::default());
+    let model = models.add(&ball);
+    let coarser: Vec<StandIn> =
+        stand_ins(&ball).iter().map(|other| StandIn { below: 0.25 / other.moved, model: models.add(&other.model) }).collect();
+    assert!(coarser.len() > 1);
+    let aspect = Some(f64::from(SIZE[1]) / f64::from(SIZE[0]));
+    let (mut compared, mut other_flags, mut other_models, mut one_sided, mut folded) = (0, 0, 0, 0, 0);
+    for (number, camera) in cameras(&mut random).into_iter().enumerate() {
+        let settings = Settings { pixel_error: [0.5, 2.0][number % 2], coarse_below: [0.0, 3.0][number / 2 % 2], ..settings() };
+        let objects: Vec<DrawnObject> = (0..600)
+            .map(|k| {
+                let (position, reach) = place(&mut random, k, &camera);
+                let light = Illumination { ambient: [0.1, 0.2, 0.3], directed: [direction(&mut random).as_vec3().to_array(); 3] };
+                let motion = ObjectMotion::Static { position, attitude: attitude(&mut random) };
+                DrawnObject { model, coarse: coarser[0].model, stand_ins: &coarser, motion, reach, scale: reach, id: k as u32 + 1, light }
+            })
+            .collect();
+        let mut held = HeldBodies::default();
+        objects.iter().for_each(|object| held.add(object));
+        renderer.upload(&SceneUpload { models: models.clone(), held, ..SceneUpload::default() });
+        let input = FrameInput { camera, time: 0.0, placed: Vec::new(), held: Some(0), aurora: None, settings };
+        renderer.picture(&input, false).unwrap();
+        let counters = renderer.counters().unwrap();
+        assert_eq!((counters.left_out, counters.simpler, counters.caught), (0, 0, 0), "{camera:?}");
+        let mut card = made(&readback::texture(&GPU, renderer.geometry().instances(), 16).unwrap(), counters.taken[0]);
+        assert_eq!(card.len(), counters.taken[0] as usize);
+        let slice = Slice::new(renderer.table(), camera.radius());
+        let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(SIZE[0]);
+        let view = InstanceView { camera: &camera, slice: &slice, pixel, aspect, settings: &settings };
+        let mut vertices = 0;
+        for placed in objects.iter().flat_map(|object| instances_of(&view, 0.0, object, settings.orders)) {
+            let want = placed.instance;
+            let Some(got) = card.remove(&[want.object, want.order, want.flags & MINUS]) else {
+                one_sided += 1;
+                continue;
+            };
+            compared += 1;
+            folded += u32::from(want.flags & MINUS != 0);
+            vertices += got.vertex_count;
+            let what = || format!("{camera:?}\n{want:?}\n{got:?}");
+            other_flags += u32::from(got.flags != want.flags || got.crossings != want.crossings);
+            other_models += u32::from([got.first_vertex, got.vertex_count] != placed.model.vertices);
+            // A rounding or two of f32.
+            let [offset, position] = [want.offset, want.position].map(|v| DVec3::from_array(v.map(f64::from)).length() as f32);
+            assert!(apart(&got.offset, &want.offset) <= 2e-7 * offset && got.position == want.position, "{}", what());
+            let axes = |i: &Instance| [i.turn_x, i.turn_y, i.turn_z, i.shape_x, i.shape_y, i.shape_z].concat();
+            assert!(apart(&axes(&got), &axes(&want)) < 5e-7 * (1.0 + want.rounding / 4e-7), "{}", what());
+            assert!(got.light == want.light && got.gamma == 1.0 && got.scale == 0.0 && got.delay == 0.0, "{}", what());
+            let across = apart(&[got.across_a, got.across_b], &[want.across_a, want.across_b]);
+            assert!(across <= 4e-7 * offset.min(position) + 2e-6 * want.rounding, "{across}: {}", what());
+            assert!((got.rounding - want.rounding).abs() <= 2e-7 * want.rounding, "{}", what());
+            if got.flags != want.flags {
+                continue;
+            }
+            // By the widths of the images, which the points' roundings over the body's size are worth.
+            let rough = 2e-3 + 1e-5 * offset.min(position) / (want.rounding / 4e-7);
+            assert!((got.strictness / want.strictness - 1.0).abs() < rough, "{}", what());
+            // Next to a limit another kind of bounds is taken; each is right.
+            for (got, want) in got.bounds.iter().zip(&want.bounds) {
+                if (got.rim == 0.0) != (want.rim == 0.0) || got.rim * want.rim < 0.0 {
+                    one_sided += 1;
+                    continue;
+                }
+                let angle = |rim: f32| 2.0 * (0.5 * rim.abs().sqrt()).min(1.0).asin();
+                let off = apart(&got.middle, &want.middle) + (angle(got.rim) - angle(want.rim)).abs();
+                assert!(off < 0.05 * angle(want.rim) + 1e-3, "{off}: {}", what());
+            }
+        }
+        one_sided += card.len();
+        assert!(counters.model_vertices >= vertices);
+    }
+    println!("{compared} images compared, {folded} by E < 0; {one_sided} of one side, {other_flags} flags, {other_models} models");
+    assert!(compared > 2000 && folded > 5);
+    assert!(one_sided * 200 < compared as usize && other_flags * 200 < compared && other_models * 200 < compared);
+}
+
+/// What is held is drawn as if the processor had placed it, by every method.
+#[test]
+fn the_card_and_the_processor_draw_the_same_picture() {
+    let mut renderer = renderer(SIZE);
+    let ball = shapes::icosphere(320, Material::default());
+    let mut models = ModelSet::default();
+    let model = models.add(&ball);
+    let camera = static_camera(DVec3::new(3.0, 2.0, 14.0), DVec3::new(-3.0, -2.0, -14.0), DVec3::Y, 1.2);
+    let places = [[0.0, 0.0, -9.0], [4.0, 0.0, -3.0], [-3.0, 1.0, 2.0], [-1.0, -2.5, 6.0], [3.0, 2.0, 12.0]].map(DVec3::from_array);
+    let light = Illumination { ambient: [0.5; 3], directed: [[0.0, 0.3, 0.0]; 3] };
+    let objects = places.map(|position| {
+        let motion = ObjectMotion::Static { position, attitude: DQuat::from_rotation_x(0.3) };
+        DrawnObject { model, coarse: model, stand_ins: &[], motion, reach: 0.6, scale: 0.6, id: 1 + position.x.abs() as u32, light }
+    });
+    let mut held = HeldBodies::default();
+    objects.iter().for_each(|object| held.add(object));
+    renderer.upload(&SceneUpload { models, held, ..SceneUpload::default() });
+    let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(SIZE[0]);
+    let slice = Slice::new(renderer.table(), camera.radius());
+    for method in methods::METHODS {
+        let settings = Settings { method, ..settings() };
+        let view = InstanceView { camera: &camera, slice: &slice, pixel, aspect: None, settings: &settings };
+        let placed = objects.iter().flat_map(|object| instances_of(&view, 0.0, object, settings.orders)).collect();
+        let by_processor = FrameInput { camera, time: 0.0, placed, held: None, aurora: None, settings };
+        let by_card = FrameInput { placed: Vec::new(), held: Some(0), ..by_processor.clone() };
+        // And some by each.
+        let by_both = FrameInput { held: Some(0), ..by_processor.clone() };
+        let [want, got, both] = [by_processor, by_card, by_both].map(|input| renderer.picture(&input, true).unwrap());
+        let drawn = want.layers.iter().filter(|pixel| pixel[0] > 0.0).count();
+        assert!(drawn > 300, "{method:?}: {drawn}");
+        for other in [&got, &both] {
+            let off = want.layers.iter().zip(&other.layers).filter(|(a, b)| a[..2] != b[..2]).count();
+            assert!(off * 200 <= drawn, "{method:?}: {off} of {drawn} pixels show something else");
+        }
+        assert!(method == flat::METHOD || crate::render::support::apart(&got, &want) < 0.02, "{method:?}");
+    }
+}
+
+/// What finds no room is told so, and what is taken is nobody else's.
+#[test]
+fn images_take_no_more_than_there_is() {
+    let frame = HeldFrame { room: [10_000, 1_000, 9_000, 9_000, 9_000, 9_000, 9_000], ..HeldFrame::default() };
+    let counters = Counters { taken: [3, 100, 0, 0, 0, 0, 0], ..Counters::default() };
+    let [frame, counters] = [bytemuck::bytes_of(&frame), bytemuck::bytes_of(&counters)].map(|bytes| layout::storage(&GPU, "held", bytes));
+    let body = "let taken = take(array<u32, 7>(1u, u32(row.x), 2u, 0u, 1u, 1u, 1u));
+    twin_out[id.x] = vec4<f32>(f32(taken.all), f32(taken.first[0]), f32(taken.first[1]), f32(taken.first[2]));";
+    let mut random = StdRng::seed_from_u64(7);
+    let rows: Vec<[f32; 4]> = (0..512).map(|_| [random.random_range(1..9u32) as f32, 0.0, 0.0, 0.0]).collect();
+    let out = run_with(Pass::Place, body, [&[], &[]], &[(0, &frame), (3, &counters)], &rows, 1);
+    let mut taken: Vec<[u32; 2]> =
+        rows.iter().zip(&out).filter(|(_, out)| out[0] == 1.0).map(|(row, out)| [out[2] as u32, row[0] as u32]).collect();
+    taken.sort_unstable();
+    assert!(taken.windows(2).all(|two| two[0][0] + two[0][1] <= two[1][0]));
+    let (first, last) = (taken[0], taken[taken.len() - 1]);
+    assert!(first[0] >= 100 && last[0] + last[1] <= 1_000 && taken.len() < rows.len());
+    // The rest is smaller than what was refused, but for what was lost in the race for it.
+    let all: u32 = taken.iter().map(|[_, count]| count).sum();
+    assert!(all > 800, "{all}");
+}
