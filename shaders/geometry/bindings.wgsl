@@ -82,8 +82,12 @@ struct Counters {
     /// Images of what is held in place that show their coarsest model because a buffer was full, and those that found no room at all.
     simpler: atomic<u32>,
     left_out: atomic<u32>,
-    /// How much of each kind images have taken, those of the processor included (instances/held.wgsl).
-    taken: array<atomic<u32>, 7>,
+    /// What is taken, by the processor and by what is held: instances, seen vertices and states in both rooms of `HeldFrame`, chunks of
+    /// vertices, edges and triangles.
+    images: atomic<u32>,
+    held_vertices: array<atomic<u32>, 2>,
+    held_states: array<atomic<u32>, 2>,
+    chunks: array<atomic<u32>, 3>,
 }
 
 /// Indirect arguments, one row of four words each (an indexed draw takes two).

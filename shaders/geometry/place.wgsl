@@ -9,9 +9,7 @@
 #import lensrunner::gpu::types::{
     Cap, Instance, INSTANCE_MINUS, INSTANCE_NARROW_RING, INSTANCE_STATIC, INSTANCE_THIN, INSTANCE_TWO_SIDED,
 }
-#import lensrunner::instances::held::{
-    HeldBody, HeldFrame, HeldModel, KINDS, TAKEN_CHUNKS, TAKEN_EDGES, TAKEN_IMAGES, TAKEN_TRIANGLES, TAKEN_VERTICES,
-}
+#import lensrunner::instances::held::{HeldBody, HeldFrame, HeldModel}
 #import lensrunner::instances::instance::INSTANCE_TEXELS
 #import lensrunner::instances::local_motion::turned_by
 #import lensrunner::instances::view::{
@@ -39,9 +37,11 @@ struct Image {
     coarsest: u32,
 }
 
-/// What the images of this group take together, by kind; and where it begins, if there was room for all.
-var<workgroup> wanted: array<atomic<u32>, 7>;
-var<workgroup> granted: array<u32, 7>;
+/// What the images of this group take together: vertices, edges; then instances and chunks of vertices, edges, triangles.
+var<workgroup> wanted: array<atomic<u32>, 6>;
+/// Where that begins.
+var<workgroup> granted: array<u32, 6>;
+/// 1 if there was room for all of its vertices and edges.
 var<workgroup> is_granted: u32;
 /// Chunks to list: the instance of each thread, and for each kind the first one and how many.
 var<workgroup> chunk_instances: array<u32, 64>;
@@ -51,53 +51,65 @@ var<workgroup> chunk_counts: array<vec3<u32>, 64>;
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     var image = image_of((group.y * groups.x + group.x) * 64u + lane);
-    var need = needed(image.shown, image.model);
-    var first = array<u32, 7>();
-    for (var kind = 0u; kind < KINDS; kind++) {
-        first[kind] = atomicAdd(&wanted[kind], need[kind]);
+    var first = vec2<u32>(0u);
+    if image.shown {
+        first = vec2<u32>(atomicAdd(&wanted[0], models[image.model].vertex_count), atomicAdd(&wanted[1], models[image.model].edge_count));
     }
     workgroupBarrier();
     if lane == 0u {
-        var all = array<u32, 7>();
-        for (var kind = 0u; kind < KINDS; kind++) {
-            all[kind] = atomicLoad(&wanted[kind]);
-        }
-        let taken = take(all);
-        is_granted = select(0u, 1u, taken.all);
-        granted = taken.first;
+        let taken = take(0u, vec2<u32>(atomicLoad(&wanted[0]), atomicLoad(&wanted[1])));
+        granted[0] = taken.first.x;
+        granted[1] = taken.first.y;
+        is_granted = select(0u, 1u, taken.fits);
     }
     workgroupBarrier();
     if is_granted == 1u {
-        for (var kind = 0u; kind < KINDS; kind++) {
-            first[kind] += granted[kind];
-        }
+        first += vec2<u32>(granted[0], granted[1]);
     } else if image.shown {
-        // Each for itself, more coarsely if need be.
-        var fits = false;
-        for (var attempt = 0u; attempt < 2u && !fits; attempt++) {
-            need = needed(true, image.model);
-            let taken = take(need);
-            first = taken.first;
-            fits = taken.all;
-            if !fits && attempt == 0u && image.model != image.coarsest {
+        // Each for itself; then more coarsely.
+        var taken: Taken;
+        for (var room = 0u; room < 2u && !taken.fits; room++) {
+            image.model = select(image.model, image.coarsest, room == 1u);
+            taken = take(room, vec2<u32>(models[image.model].vertex_count, models[image.model].edge_count));
+            if taken.fits && room == 1u {
                 atomicAdd(&counters.simpler, 1u);
-                image.model = image.coarsest;
-            } else if !fits {
-                break;
             }
         }
-        if !fits {
+        first = taken.first;
+        if !taken.fits {
             atomicAdd(&counters.left_out, 1u);
             image.shown = false;
         }
     }
-    chunk_instances[lane] = first[TAKEN_IMAGES];
-    first_chunks[lane] = vec3<u32>(first[TAKEN_CHUNKS], first[TAKEN_CHUNKS + 1u], first[TAKEN_CHUNKS + 2u]);
-    chunk_counts[lane] = select(vec3<u32>(0u), vec3<u32>(need[TAKEN_CHUNKS], need[TAKEN_CHUNKS + 1u], need[TAKEN_CHUNKS + 2u]), image.shown);
+    var slot = 0u;
+    var chunk = vec3<u32>(0u);
+    var counts = vec3<u32>(0u);
     if image.shown {
         let model = models[image.model];
-        image.instance.first_seen = first[TAKEN_VERTICES];
-        image.instance.first_state = first[TAKEN_EDGES];
+        counts = (vec3<u32>(model.vertex_count, model.edge_count, model.triangle_count) + 63u) / 64u;
+        slot = atomicAdd(&wanted[2], 1u);
+        chunk = vec3<u32>(atomicAdd(&wanted[3], counts.x), atomicAdd(&wanted[4], counts.y), atomicAdd(&wanted[5], counts.z));
+    }
+    workgroupBarrier();
+    if lane == 0u {
+        granted[2] = atomicAdd(&counters.images, atomicLoad(&wanted[2]));
+        granted[3] = atomicAdd(&counters.chunks[0], atomicLoad(&wanted[3]));
+        granted[4] = atomicAdd(&counters.chunks[1], atomicLoad(&wanted[4]));
+        granted[5] = atomicAdd(&counters.chunks[2], atomicLoad(&wanted[5]));
+    }
+    workgroupBarrier();
+    slot += granted[2];
+    if image.shown && slot >= held_frame.images_end {
+        atomicAdd(&counters.left_out, 1u);
+        image.shown = false;
+    }
+    chunk_instances[lane] = select(NO_INSTANCE, slot, image.shown);
+    first_chunks[lane] = chunk + vec3<u32>(granted[3], granted[4], granted[5]);
+    chunk_counts[lane] = counts;
+    if image.shown {
+        let model = models[image.model];
+        image.instance.first_seen = first.x;
+        image.instance.first_state = first.y;
         image.instance.first_vertex = model.first_vertex;
         image.instance.vertex_count = model.vertex_count;
         image.instance.first_edge = model.first_edge;
@@ -105,24 +117,24 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         image.instance.first_triangle = model.first_triangle;
         image.instance.triangle_count = model.triangle_count;
         image.instance.first_material = model.first_material;
-        write_instance(first[TAKEN_IMAGES], image.instance);
+        write_instance(slot, image.instance);
     }
     workgroupBarrier();
     // All threads together, for a model may have many.
     for (var of_lane = 0u; of_lane < 64u; of_lane++) {
-        let counts = chunk_counts[of_lane];
+        let listed = chunk_counts[of_lane];
         let begin = first_chunks[of_lane];
         let instance = chunk_instances[of_lane];
-        for (var chunk = lane; chunk < max(counts.x, max(counts.y, counts.z)); chunk += 64u) {
-            let words = vec4<u32>(instance, chunk * 64u, 0u, 0u);
-            if chunk < counts.x {
-                textureStore(vertex_chunks, table_place(begin.x + chunk), words);
+        for (var k = lane; k < max(listed.x, max(listed.y, listed.z)); k += 64u) {
+            let words = vec4<u32>(instance, k * 64u, 0u, 0u);
+            if k < listed.x {
+                textureStore(vertex_chunks, table_place(begin.x + k), words);
             }
-            if chunk < counts.y {
-                textureStore(edge_chunks, table_place(begin.y + chunk), words);
+            if k < listed.y {
+                textureStore(edge_chunks, table_place(begin.y + k), words);
             }
-            if chunk < counts.z {
-                textureStore(triangle_chunks, table_place(begin.z + chunk), words);
+            if k < listed.z {
+                textureStore(triangle_chunks, table_place(begin.z + k), words);
             }
         }
     }
@@ -131,7 +143,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
 /// After all: how much the stages have to do.
 @compute @workgroup_size(1)
 fn finish() {
-    let vertices = atomicLoad(&counters.taken[TAKEN_VERTICES]);
+    let coarse = min(atomicLoad(&counters.held_vertices[1]), held_frame.vertices_end[1]);
+    let fine = min(atomicLoad(&counters.held_vertices[0]), held_frame.vertices_end[0]);
+    let vertices = select(fine, coarse, coarse > held_frame.vertices_end[0]);
     atomicStore(&counters.vertices, vertices);
     counters.model_vertices = vertices;
     arguments.vertices = dispatch_of(0u);
@@ -144,7 +158,7 @@ const GROUPS: u32 = 32768u;
 
 /// The dispatch over the chunks of a kind; those beyond the last are made none.
 fn dispatch_of(kind: u32) -> vec4<u32> {
-    let count = atomicLoad(&counters.taken[TAKEN_CHUNKS + kind]);
+    let count = atomicLoad(&counters.chunks[kind]);
     let rows = max((count + GROUPS - 1u) / GROUPS, 1u);
     let columns = (count + rows - 1u) / rows;
     let none = vec4<u32>(NO_INSTANCE, 0u, 0u, 0u);
@@ -162,45 +176,21 @@ fn table_place(texel: u32) -> vec2<u32> {
     return vec2<u32>(texel % TABLE_ROW, texel / TABLE_ROW);
 }
 
-/// What an image takes of each kind.
-fn needed(shown: bool, number: u32) -> array<u32, 7> {
-    let model = models[number];
-    let some = select(0u, 1u, shown);
-    return array<u32, 7>(some, some * model.vertex_count, some * model.edge_count, some * model.triangle_count,
-        some * ((model.vertex_count + 63u) / 64u), some * ((model.edge_count + 63u) / 64u), some * ((model.triangle_count + 63u) / 64u));
-}
-
-/// Where what was taken begins, if there was room for all of it.
+/// Where vertices and edges begin that were taken from a room, if there was room for all of them.
 struct Taken {
-    first: array<u32, 7>,
-    all: bool,
+    first: vec2<u32>,
+    fits: bool,
 }
 
-fn take(need: array<u32, 7>) -> Taken {
-    var asked = need;
-    var taken: Taken;
-    for (var kind = 0u; kind < KINDS; kind++) {
-        if atomicLoad(&counters.taken[kind]) + asked[kind] > held_frame.room[kind] {
-            return taken;
-        }
+fn take(room: u32, counts: vec2<u32>) -> Taken {
+    let end = vec2<u32>(held_frame.vertices_end[room], held_frame.states_end[room]);
+    // Nothing is taken in vain, but where others take the rest meanwhile.
+    let before = vec2<u32>(atomicLoad(&counters.held_vertices[room]), atomicLoad(&counters.held_states[room]));
+    if any(before + counts > end) {
+        return Taken(before, false);
     }
-    for (var kind = 0u; kind < KINDS; kind++) {
-        var old = atomicLoad(&counters.taken[kind]);
-        loop {
-            // Another took the rest meanwhile. What was taken of other kinds stays unused.
-            if old + asked[kind] > held_frame.room[kind] {
-                return taken;
-            }
-            let exchange = atomicCompareExchangeWeak(&counters.taken[kind], old, old + asked[kind]);
-            if exchange.exchanged {
-                break;
-            }
-            old = exchange.old_value;
-        }
-        taken.first[kind] = old;
-    }
-    taken.all = true;
-    return taken;
+    let first = vec2<u32>(atomicAdd(&counters.held_vertices[room], counts.x), atomicAdd(&counters.held_states[room], counts.y));
+    return Taken(first, all(first + counts <= end));
 }
 
 /// Factor on the ball's radius for bounds.

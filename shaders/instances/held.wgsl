@@ -67,17 +67,10 @@ struct HeldFrame {
     strictness: f32,
     /// 1 if narrow images are thin ones.
     has_thin: u32,
-    /// Where the room of each kind ends, as `Counters.taken` counts.
-    room: array<u32, 7>,
-    unused_a: u32,
-    unused_b: u32,
-    unused_c: u32,
+    /// Where the room ends: in the table of instances,
+    images_end: u32,
+    /// among seen vertices and among states, for images as they should be and, behind those, for what is drawn coarsely when that is full.
+    vertices_end: array<u32, 2>,
+    states_end: array<u32, 2>,
+    unused: u32,
 }
-
-/// Kinds of what images take, in their order: images, vertices, edges, triangles, and the chunks of the last three.
-const KINDS: u32 = 7u;
-const TAKEN_IMAGES: u32 = 0u;
-const TAKEN_VERTICES: u32 = 1u;
-const TAKEN_EDGES: u32 = 2u;
-const TAKEN_TRIANGLES: u32 = 3u;
-const TAKEN_CHUNKS: u32 = 4u;

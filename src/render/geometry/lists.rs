@@ -4,7 +4,7 @@ use crate::render::gpu::layout::{TABLE_ROW, TABLE_ROWS};
 use crate::render::gpu::types::placed::THIN;
 use crate::render::gpu::types::{CHUNK, Capacity, Chunk, Counters, HeldFrame, Instance, SeenVertex};
 use crate::render::instances::Placed;
-use crate::render::instances::held::HeldImages;
+use crate::render::instances::held::{HeldCount, HeldImages};
 use crate::render::instances::local_motion::MotionNode;
 
 /// Groups along the first dimension of a dispatch (65,535 is the limit).
@@ -21,6 +21,8 @@ pub struct BodyLists {
     pub(super) dispatch: [[u32; 2]; 3],
     /// What is held, with the room that its images have.
     pub(super) held: Option<HeldFrame>,
+    /// Chunks of it, at most.
+    held_chunks: [u64; 3],
     /// Vertices and edges of all models.
     pub(super) states: u32,
     /// Where the counters begin.
@@ -38,9 +40,10 @@ impl BodyLists {
         let mut instances: Vec<Instance> = Vec::with_capacity(placed.len());
         let mut chunks: [Vec<Chunk>; 3] = Default::default();
         let drawn = || placed.iter().filter(|item| item.instance.is_finite());
+        let most_held = held.map_or_else(HeldCount::default, |held| held.most);
         // States of edges lie behind those of all vertices.
         let all_vertices: u32 = drawn().map(|item| item.model.vertices[1]).sum();
-        let vertices_end = held.map_or(all_vertices, |held| held.end(1, all_vertices, vertex_limit(budget, most)));
+        let vertices_end = end(all_vertices, most_held.vertices, vertex_limit(budget, most));
         // What is not finite is left out here; counted with what the shaders leave out.
         let refused = (placed.len() - drawn().count()) as u32;
         let calmed = placed.iter().filter(|item| item.calmed).count() as u32;
@@ -85,30 +88,44 @@ impl BodyLists {
                 list.resize((groups[0] * groups[1]) as usize, Chunk { instance: u32::MAX, first: 0 });
             }
         }
-        let [first, second, third] = [0, 1, 2].map(|kind: usize| chunks[kind].len() as u32);
-        let taken = [(texels.len() / INSTANCE_TEXELS) as u32, vertices, vertices_end + edges, triangles, first, second, third];
-        let room = held.map_or(taken, |held| {
-            let chunks = TABLE_CHUNKS as u64;
-            let limits = [(TABLE_TEXELS / INSTANCE_TEXELS) as u64, vertices_end.into(), most / 16, most, chunks, chunks, chunks];
-            std::array::from_fn(|kind| held.end(kind, taken[kind], limits[kind]))
-        });
+        let images = (texels.len() / INSTANCE_TEXELS) as u32;
+        let states = vertices_end + edges;
+        let states_end = end(states, most_held.edges, most / STATE_BYTES);
+        let images_end = end(images, most_held.number, (TABLE_TEXELS / INSTANCE_TEXELS) as u64);
+        // Where there may not be room for all, an eighth is kept for what is drawn coarsely when the rest is full.
+        let is_full = most_held.vertices > u64::from(vertices_end - vertices) || most_held.edges > u64::from(states_end - states);
+        let [vertices_end, states_end] = [(vertices, vertices_end), (states, states_end)]
+            .map(|(first, end): (u32, u32)| [if is_full { end - (end - first) / 8 } else { end }, end]);
         BodyLists {
             texels,
+            held: held.map(|held| HeldFrame { images_end, vertices_end, states_end, ..held.frame }),
+            held_chunks: most_held.chunks,
+            states: states_end[1],
+            // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
+            counters: Counters {
+                vertices,
+                model_vertices: vertices,
+                turn: 1,
+                caught: refused,
+                calmed,
+                images,
+                held_vertices: [vertices, vertices_end[0]],
+                held_states: [states, states_end[0]],
+                chunks: [0, 1, 2].map(|kind: usize| chunks[kind].len() as u32),
+                ..Counters::default()
+            },
             chunks,
             dispatch,
-            held: held.map(|held| HeldFrame { room, ..held.frame }),
-            states: room[2],
-            // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
-            counters: Counters { vertices, model_vertices: vertices, turn: 1, caught: refused, calmed, taken, ..Counters::default() },
             thin_across,
-            capacity: capacity_for(budget, room[1], room[3], most),
+            capacity: capacity_for(budget, vertices_end[1], end(triangles, most_held.triangles, u32::MAX.into()), most),
         }
     }
 
     /// Texels of the tables of instances and of chunks, with the room of what is held and what fills up its dispatches.
     pub(super) fn texels_with_room(&self) -> [usize; 4] {
-        let room = |kind: usize| self.held.map_or(0, |held| held.room[kind] as usize);
-        [room(0) * INSTANCE_TEXELS, room(4) + FILLED, room(5) + FILLED, room(6) + FILLED]
+        let images = self.held.map_or(0, |held| held.images_end as usize);
+        let chunks = |kind: usize| (self.chunks[kind].len() + self.held_chunks[kind] as usize).min(TABLE_TEXELS - FILLED) + FILLED;
+        [images * INSTANCE_TEXELS, chunks(0), chunks(1), chunks(2)]
     }
 }
 
@@ -118,8 +135,13 @@ const INSTANCE_TEXELS: usize = size_of::<Instance>() / size_of::<[f32; 4]>();
 const TABLE_TEXELS: usize = TABLE_ROW * TABLE_ROWS;
 /// Chunks that fill up a dispatch of several rows, at most one a row.
 const FILLED: usize = TABLE_TEXELS / GROUPS as usize;
-/// Chunks of the longest list.
-const TABLE_CHUNKS: usize = TABLE_TEXELS - FILLED;
+/// Bytes of the state of a vertex or an edge.
+const STATE_BYTES: u64 = 16;
+
+/// Where the room for `more` behind the first `taken` ends, if no more than `limit` fit in all.
+fn end(taken: u32, more: u64, limit: u64) -> u32 {
+    (u64::from(taken) + more).min(limit.max(taken.into())) as u32
+}
 
 /// The most vertices that models may have where something is held: an eighth of the largest buffer is left to the mesh stage.
 fn vertex_limit(budget: u32, most: u64) -> u64 {

@@ -226,12 +226,11 @@ pub struct HeldFrame {
     pub allowed: f32,
     pub strictness: f32,
     pub has_thin: u32,
-    pub room: [u32; KINDS],
-    pub unused: [u32; 3],
+    pub images_end: u32,
+    pub vertices_end: [u32; 2],
+    pub states_end: [u32; 2],
+    pub unused: u32,
 }
-
-/// Kinds of what images take, in their order: images, vertices, edges, triangles, and the chunks of the last three; `KINDS` of WGSL.
-pub const KINDS: usize = 7;
 
 /// `ModelVertex` in WGSL.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -336,7 +335,10 @@ pub struct Counters {
     pub calmed: u32,
     pub simpler: u32,
     pub left_out: u32,
-    pub taken: [u32; KINDS],
+    pub images: u32,
+    pub held_vertices: [u32; 2],
+    pub held_states: [u32; 2],
+    pub chunks: [u32; 3],
 }
 
 impl Counters {

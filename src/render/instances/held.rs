@@ -1,6 +1,6 @@
 //! What is held in place: made ready for the card once, which places its images in each frame (`shaders/geometry/place.wgsl`).
 
-use crate::render::gpu::types::{CHUNK, HeldBody, HeldFrame, HeldModel, KINDS};
+use crate::render::gpu::types::{CHUNK, HeldBody, HeldFrame, HeldModel};
 use crate::render::instances::{DRAWN_OUT_ERROR, DrawnObject, ObjectMotion, light_rows, numbers, photon_sphere_strictness};
 use crate::render::models::ModelRange;
 use crate::render::settings::Settings;
@@ -16,15 +16,22 @@ pub struct HeldBodies {
     models: Vec<HeldModel>,
     /// By a full model: where the list of it and its stand-ins begins, and how many they are.
     known: Vec<(ModelRange, [u32; 2])>,
-    /// Of each kind what one image of every body takes at most.
-    one_each: [u64; KINDS],
+    count: HeldCount,
 }
 
-/// How many bodies are held, and what their images take.
+/// How much is held, or shown of it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct HeldCount {
-    bodies: u32,
-    one_each: [u64; KINDS],
+    /// Bodies, or images.
+    pub number: u64,
+    /// Vertices of their full models.
+    pub vertices: u64,
+    /// Edges of those.
+    pub edges: u64,
+    /// Triangles of those.
+    pub triangles: u64,
+    /// Chunks of vertices, edges and triangles.
+    pub chunks: [u64; 3],
 }
 
 /// What is held, in one frame.
@@ -32,8 +39,8 @@ pub struct HeldCount {
 pub struct HeldImages {
     /// For the shader.
     pub frame: HeldFrame,
-    /// Of each kind what all images take at most.
-    pub most: [u64; KINDS],
+    /// What all images take at most.
+    pub most: HeldCount,
 }
 
 impl HeldBodies {
@@ -55,8 +62,13 @@ impl HeldBodies {
             object: object.id,
             unused: 0,
         });
-        for (all, one) in self.one_each.iter_mut().zip(taken_by(&object.model)) {
-            *all += u64::from(one);
+        let [vertices, edges, triangles] = [object.model.vertices[1], object.model.edges[1], object.model.triangles[1]];
+        self.count.number += 1;
+        self.count.vertices += u64::from(vertices);
+        self.count.edges += u64::from(edges);
+        self.count.triangles += u64::from(triangles);
+        for (chunks, count) in self.count.chunks.iter_mut().zip([vertices, edges, triangles]) {
+            *chunks += u64::from(count.div_ceil(CHUNK));
         }
     }
 
@@ -88,17 +100,9 @@ impl HeldBodies {
         &self.models
     }
 
-    /// How many there are.
+    /// How much they are.
     pub fn count(&self) -> HeldCount {
-        HeldCount { bodies: self.bodies.len() as u32, one_each: self.one_each }
-    }
-}
-
-impl HeldImages {
-    /// Where a kind ends whose first `before` are taken, if no more than `limit` fit.
-    pub fn end(&self, kind: usize, before: u32, limit: u64) -> u32 {
-        let before = u64::from(before);
-        (before + self.most[kind]).min(limit.max(before)) as u32
+        self.count
     }
 }
 
@@ -114,7 +118,7 @@ impl HeldCount {
         let (position, rest) = split(camera.position);
         let frame = HeldFrame {
             camera: position,
-            bodies: self.bodies,
+            bodies: self.number as u32,
             camera_rest: rest,
             images,
             orders,
@@ -129,16 +133,16 @@ impl HeldCount {
             has_thin: u32::from(settings.min_width > 0.0),
             ..HeldFrame::default()
         };
-        (self.bodies > 0).then(|| HeldImages { frame, most: self.one_each.map(|one| one * u64::from(images)) })
+        let all = |one: u64| one * u64::from(images);
+        let most = HeldCount {
+            number: all(self.number),
+            vertices: all(self.vertices),
+            edges: all(self.edges),
+            triangles: all(self.triangles),
+            chunks: self.chunks.map(all),
+        };
+        (self.number > 0).then_some(HeldImages { frame, most })
     }
-}
-
-/// What an image takes of each kind if it shows this model.
-fn taken_by(model: &ModelRange) -> [u32; KINDS] {
-    let counts = [model.vertices[1], model.edges[1], model.triangles[1]];
-    let [vertices, edges, triangles] = counts;
-    let chunks = counts.map(|count| count.div_ceil(CHUNK));
-    [1, vertices, edges, triangles, chunks[0], chunks[1], chunks[2]]
 }
 
 /// A vector in f32, and what rounding took from it.

@@ -19,8 +19,8 @@ use lensrunner::render::gpu::library::{Library, Values, Worldlines};
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::gpu::targets::TILE;
 use lensrunner::render::gpu::types::{
-    self, Adaptation, Cap, Capacity, CellDraws, Chunk, Counters, Frame, HeldBody, HeldFrame, HeldModel, Instance, KINDS, Material,
-    ModelTriangle, ModelVertex, SeenVertex, Star,
+    self, Adaptation, Cap, Capacity, CellDraws, Chunk, Counters, Frame, HeldBody, HeldFrame, HeldModel, Instance, Material, ModelTriangle,
+    ModelVertex, SeenVertex, Star,
 };
 use lensrunner::render::gpu::types::{flags, placed};
 use lensrunner::render::models::ALONE;
@@ -96,7 +96,7 @@ fn structs_have_one_layout_in_both_languages() {
         (
             "geometry::bindings::Counters",
             fields!(Counters: vertices, indices, work, thin, pieces, turn, coarse, cut, caught, model_vertices, lost, outside, split,
-            calmed, simpler, left_out, taken),
+            calmed, simpler, left_out, images, held_vertices, held_states, chunks),
         ),
         (
             "instances::held::HeldBody",
@@ -110,7 +110,7 @@ fn structs_have_one_layout_in_both_languages() {
         (
             "instances::held::HeldFrame",
             fields!(HeldFrame: camera, bodies, camera_rest, images, orders, flags, bounded, stand_ins_drawn_out, thin_below, coarse_below,
-            least_width, allowed, strictness, has_thin, room, unused ["unused_a", "unused_b", "unused_c"]),
+            least_width, allowed, strictness, has_thin, images_end, vertices_end, states_end, unused),
         ),
         ("gpu::types::Material", fields!(Material: base, alpha, emissive, roughness, metallic, layer, temperature, nozzle)),
         (
@@ -229,7 +229,6 @@ fn constants_have_one_value_in_both_languages() {
         ("gpu::types::SIDE_AGAINST", whole(outside::AGAINST)),
         ("gpu::types::SIDE_LONE", whole(outside::LONE)),
         ("geometry::bindings::ALONE", whole(ALONE)),
-        ("instances::held::KINDS", KINDS as f64),
         ("post_process::tiles::TILE", whole(TILE)),
         ("gpu::colour::BLACKBODY_COLDEST", f64::from(BLACKBODY_COLDEST)),
         ("gpu::colour::BLACKBODY_HOTTEST", f64::from(BLACKBODY_HOTTEST)),

@@ -7,11 +7,11 @@ use glam::{DQuat, DVec3};
 use lensrunner::lensing::Slice;
 use lensrunner::lensing::methods::{self, flat};
 use lensrunner::render::frame::FrameInput;
+use lensrunner::render::gpu::layout;
 use lensrunner::render::gpu::readback;
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::gpu::types::placed::MINUS;
 use lensrunner::render::gpu::types::{Counters, HeldFrame, Instance};
-use lensrunner::render::gpu::layout;
 use lensrunner::render::instances::held::HeldBodies;
 use lensrunner::render::instances::{DrawnObject, Illumination, InstanceView, ObjectMotion, StandIn, instances_of};
 use lensrunner::render::models::ModelSet;
@@ -106,8 +106,8 @@ fn the_card_places_what_is_held_as_the_processor_would() {
         renderer.picture(&input, false).unwrap();
         let counters = renderer.counters().unwrap();
         assert_eq!((counters.left_out, counters.simpler, counters.caught), (0, 0, 0), "{camera:?}");
-        let mut card = made(&readback::texture(&GPU, renderer.geometry().instances(), 16).unwrap(), counters.taken[0]);
-        assert_eq!(card.len(), counters.taken[0] as usize);
+        let mut card = made(&readback::texture(&GPU, renderer.geometry().instances(), 16).unwrap(), counters.images);
+        assert_eq!(card.len(), counters.images as usize);
         let slice = Slice::new(renderer.table(), camera.radius());
         let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(SIZE[0]);
         let view = InstanceView { camera: &camera, slice: &slice, pixel, aspect, settings: &settings };
@@ -199,16 +199,16 @@ fn the_card_and_the_processor_draw_the_same_picture() {
 /// What finds no room is told so, and what is taken is nobody else's.
 #[test]
 fn images_take_no_more_than_there_is() {
-    let frame = HeldFrame { room: [10_000, 1_000, 9_000, 9_000, 9_000, 9_000, 9_000], ..HeldFrame::default() };
-    let counters = Counters { taken: [3, 100, 0, 0, 0, 0, 0], ..Counters::default() };
+    let frame = HeldFrame { vertices_end: [1_000, 1_200], states_end: [9_000, 9_900], ..HeldFrame::default() };
+    let counters = Counters { held_vertices: [100, 1_000], held_states: [3, 9_000], ..Counters::default() };
     let [frame, counters] = [bytemuck::bytes_of(&frame), bytemuck::bytes_of(&counters)].map(|bytes| layout::storage(&GPU, "held", bytes));
-    let body = "let taken = take(array<u32, 7>(1u, u32(row.x), 2u, 0u, 1u, 1u, 1u));
-    twin_out[id.x] = vec4<f32>(f32(taken.all), f32(taken.first[0]), f32(taken.first[1]), f32(taken.first[2]));";
+    let body = "let taken = take(0u, vec2<u32>(u32(row.x), 2u));
+    twin_out[id.x] = vec4<f32>(f32(taken.fits), vec2<f32>(taken.first), 0.0);";
     let mut random = StdRng::seed_from_u64(7);
     let rows: Vec<[f32; 4]> = (0..512).map(|_| [random.random_range(1..9u32) as f32, 0.0, 0.0, 0.0]).collect();
     let out = run_with(Pass::Place, body, [&[], &[]], &[(0, &frame), (3, &counters)], &rows, 1);
     let mut taken: Vec<[u32; 2]> =
-        rows.iter().zip(&out).filter(|(_, out)| out[0] == 1.0).map(|(row, out)| [out[2] as u32, row[0] as u32]).collect();
+        rows.iter().zip(&out).filter(|(_, out)| out[0] == 1.0).map(|(row, out)| [out[1] as u32, row[0] as u32]).collect();
     taken.sort_unstable();
     assert!(taken.windows(2).all(|two| two[0][0] + two[0][1] <= two[1][0]));
     let (first, last) = (taken[0], taken[taken.len() - 1]);
