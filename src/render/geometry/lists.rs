@@ -117,7 +117,7 @@ impl BodyLists {
             chunks,
             dispatch,
             thin_across,
-            capacity: capacity_for(budget, vertices_end[1], end(triangles, most_held.triangles, u32::MAX.into()), most),
+            capacity: capacity_for(budget, vertices_end[1], end(triangles, most_held.triangles, most / INDEX_BYTES), most),
         }
     }
 
@@ -135,6 +135,8 @@ const INSTANCE_TEXELS: usize = size_of::<Instance>() / size_of::<[f32; 4]>();
 const TABLE_TEXELS: usize = TABLE_ROW * TABLE_ROWS;
 /// Chunks that fill up a dispatch of several rows, at most one a row.
 const FILLED: usize = TABLE_TEXELS / GROUPS as usize;
+/// Bytes of an index.
+const INDEX_BYTES: u64 = 4;
 /// Bytes of the state of a vertex or an edge.
 const STATE_BYTES: u64 = 16;
 
@@ -154,7 +156,8 @@ fn vertex_limit(budget: u32, most: u64) -> u64 {
 /// `most` bytes, the device's limit, as long as the models fit; seen vertices take the most.
 fn capacity_for(budget: u32, vertices: u32, triangles: u32, most: u64) -> Capacity {
     let budget = budget.min(((most / size_of::<SeenVertex>() as u64) as u32).saturating_sub(vertices));
-    Capacity { vertices: vertices + budget, indices: 3 * (2 * budget + 5 * triangles), work: budget / 10, thin: 3 * (budget / 3) }
+    let indices = 3 * (2 * budget + 5 * triangles);
+    Capacity { vertices: vertices + budget, indices: indices.min((most / INDEX_BYTES) as u32), work: budget / 10, thin: 3 * (budget / 3) }
 }
 
 /// The texels of the table of instances: the instances, then the nodes of each, whose place is told to it.

@@ -1,7 +1,7 @@
 //! Geometry: models projected through the table, tessellated in two stages of compute in the manner of mesh shaders, and drawn.
 //!
-//! One file of `shaders/geometry/` a stage: place, vertices, edges, triangles (the object stage), refine, mesh, draw. They hand to each other
-//! through the buffers of group 1; the processor only says which objects there are.
+//! One file of `shaders/geometry/` a stage: place, vertices, edges, triangles (the object stage), refine, mesh, draw. They hand to each
+//! other through the buffers of group 1; the processor only says which objects there are.
 
 mod ground;
 pub mod lists;
@@ -183,17 +183,13 @@ impl Geometry {
     /// Takes the stages of this method of projection, for a camera inside the horizon or outside; compiles them if need be.
     pub fn set_method(&mut self, method: Method, inside: bool) {
         self.pipelines.choose((method, inside));
-        if let Some(pipelines) = self.placing.pipelines() {
-            pipelines.choose((method, inside));
-        }
+        self.placing.choose((method, inside));
     }
 
     /// The camera may soon be on the other side of the horizon: compiles its stages in the background.
     pub fn precompile(&mut self, method: Method, inside: bool) {
         self.pipelines.precompile((method, inside));
-        if let Some(pipelines) = self.placing.pipelines() {
-            pipelines.precompile((method, inside));
-        }
+        self.placing.precompile((method, inside));
     }
 
     /// Takes what a scene holds in place of what was held; the first compiles the stage that places it.

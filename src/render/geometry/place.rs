@@ -77,9 +77,14 @@ impl Placing {
         self.count
     }
 
-    /// Its pipelines, once something was held.
-    pub fn pipelines(&mut self) -> Option<&mut PipelineCache<PlacePipelines>> {
-        self.pipelines.as_mut()
+    /// Uses the pipelines of this side from now on, once something was held.
+    pub fn choose(&mut self, side: Side) {
+        self.pipelines.iter_mut().for_each(|pipelines| pipelines.choose(side));
+    }
+
+    /// This side will be needed: compiles it in the background.
+    pub fn precompile(&mut self, side: Side) {
+        self.pipelines.iter_mut().for_each(|pipelines| pipelines.precompile(side));
     }
 
     /// Writes what a frame asks for.
