@@ -50,8 +50,8 @@ fn place(random: &mut StdRng, k: usize, camera: &Observer) -> (DVec3, f64) {
     match k % 8 {
         0 => (n * far, 0.3 * size),
         1 => (-n * far, size),
-        2 => (direction(random) * random.random_range(1.4..1.6), 0.2 * size),
-        3 => (direction(random) * random.random_range(1.002..1.1), 0.1 * size),
+        2 => (direction(random) * random.random_range(1.4..1.6f64), 0.2 * size),
+        3 => (direction(random) * random.random_range(1.002..1.1f64), 0.1 * size),
         4 => (camera.position + direction(random) * 3.0 * size, size),
         5 => ((-n * far + direction(random) * 0.3 * size).clamp_length_min(1.01), size),
         _ => (direction(random) * far, 0.5 * size),
