@@ -403,32 +403,32 @@ fn model_for(body: HeldBody, width: f32, is_near: bool) -> u32 {
 }
 
 /// Writes an instance where `instance_at` reads it.
-fn write_instance(index: u32, of: Instance) {
-    write_numbers(index, 0u, vec4<f32>(of.offset, of.delay));
-    write_numbers(index, 1u, vec4<f32>(of.position, of.engines_off));
-    write_numbers(index, 2u, vec4<f32>(of.velocity, of.scale));
-    write_numbers(index, 3u, vec4<f32>(of.acceleration, of.across_a));
-    write_numbers(index, 4u, vec4<f32>(of.jerk, of.across_b));
-    write_numbers(index, 5u, vec4<f32>(of.snap, of.crossings));
-    write_numbers(index, 6u, vec4<f32>(of.momentum, of.gamma));
-    write_numbers(index, 7u, vec4<f32>(of.contraction, of.rounding));
-    write_numbers(index, 8u, vec4<f32>(of.force, of.strays));
-    write_numbers(index, 9u, vec4<f32>(of.spin, of.spin_slack));
-    write_numbers(index, 10u, vec4<f32>(of.shape_x, of.strictness));
-    write_numbers(index, 11u, vec4<f32>(of.shape_y, of.first_node));
-    write_numbers(index, 12u, vec4<f32>(of.shape_z, of.nodes_per_time));
-    write_numbers(index, 13u, vec4<f32>(of.turn_x, of.node_intervals));
-    write_numbers(index, 14u, vec4<f32>(of.turn_y, 0.0));
-    write_numbers(index, 15u, vec4<f32>(of.turn_z, 0.0));
-    write_numbers(index, 16u, of.light_red);
-    write_numbers(index, 17u, of.light_green);
-    write_numbers(index, 18u, of.light_blue);
-    write_numbers(index, 19u, vec4<f32>(of.bound_high.middle, of.bound_high.rim));
-    write_numbers(index, 20u, vec4<f32>(of.bound_low.middle, of.bound_low.rim));
-    write_numbers(index, 21u, vec4<f32>(of.bound_look.middle, of.bound_look.rim));
-    write_words(index, 22u, vec4<u32>(of.order, of.object, of.first_seen, of.first_state));
-    write_words(index, 23u, vec4<u32>(of.first_vertex, of.vertex_count, of.first_edge, of.edge_count));
-    write_words(index, 24u, vec4<u32>(of.first_triangle, of.triangle_count, of.first_material, of.flags));
+fn write_instance(index: u32, instance: Instance) {
+    write_numbers(index, 0u, vec4<f32>(instance.offset, instance.delay));
+    write_numbers(index, 1u, vec4<f32>(instance.position, instance.engines_off));
+    write_numbers(index, 2u, vec4<f32>(instance.velocity, instance.scale));
+    write_numbers(index, 3u, vec4<f32>(instance.acceleration, instance.across_a));
+    write_numbers(index, 4u, vec4<f32>(instance.jerk, instance.across_b));
+    write_numbers(index, 5u, vec4<f32>(instance.snap, instance.crossings));
+    write_numbers(index, 6u, vec4<f32>(instance.momentum, instance.gamma));
+    write_numbers(index, 7u, vec4<f32>(instance.contraction, instance.rounding));
+    write_numbers(index, 8u, vec4<f32>(instance.force, instance.strays));
+    write_numbers(index, 9u, vec4<f32>(instance.spin, instance.spin_slack));
+    write_numbers(index, 10u, vec4<f32>(instance.shape_x, instance.strictness));
+    write_numbers(index, 11u, vec4<f32>(instance.shape_y, instance.first_node));
+    write_numbers(index, 12u, vec4<f32>(instance.shape_z, instance.nodes_per_time));
+    write_numbers(index, 13u, vec4<f32>(instance.turn_x, instance.node_intervals));
+    write_numbers(index, 14u, vec4<f32>(instance.turn_y, 0.0));
+    write_numbers(index, 15u, vec4<f32>(instance.turn_z, 0.0));
+    write_numbers(index, 16u, instance.light_red);
+    write_numbers(index, 17u, instance.light_green);
+    write_numbers(index, 18u, instance.light_blue);
+    write_numbers(index, 19u, vec4<f32>(instance.bound_high.middle, instance.bound_high.rim));
+    write_numbers(index, 20u, vec4<f32>(instance.bound_low.middle, instance.bound_low.rim));
+    write_numbers(index, 21u, vec4<f32>(instance.bound_look.middle, instance.bound_look.rim));
+    write_words(index, 22u, vec4<u32>(instance.order, instance.object, instance.first_seen, instance.first_state));
+    write_words(index, 23u, vec4<u32>(instance.first_vertex, instance.vertex_count, instance.first_edge, instance.edge_count));
+    write_words(index, 24u, vec4<u32>(instance.first_triangle, instance.triangle_count, instance.first_material, instance.flags));
 }
 
 fn write_numbers(index: u32, k: u32, row: vec4<f32>) {
