@@ -217,3 +217,28 @@ fn images_take_no_more_than_there_is() {
     let all: u32 = taken.iter().map(|[_, count]| count).sum();
     assert!(all > 800, "{all}");
 }
+
+/// A hundred thousand bodies are placed within the buffers of WebGPU, and the processor does nothing for each.
+#[test]
+fn a_hundred_thousand_bodies_are_placed() {
+    let mut random = StdRng::seed_from_u64(100_000);
+    let mut renderer = renderer([64, 36]);
+    let mut models = ModelSet::default();
+    let model = models.add(&shapes::icosphere(20, Material::default()));
+    let mut held = HeldBodies::default();
+    for id in 1..=100_000 {
+        let position = direction(&mut random) * random.random_range(3.0..60.0f64);
+        let motion = ObjectMotion::Static { position, attitude: DQuat::IDENTITY };
+        let light = Illumination { ambient: [1.0; 3], ..Illumination::default() };
+        held.add(&DrawnObject { model, coarse: model, stand_ins: &[], motion, reach: 0.05, scale: 0.05, id, light });
+    }
+    renderer.upload(&SceneUpload { models, held, ..SceneUpload::default() });
+    let camera = static_camera(DVec3::new(1.0, 2.0, 30.0), DVec3::NEG_Z, DVec3::Y, 1.0);
+    let input = FrameInput { camera, time: 0.0, placed: Vec::new(), held: Some(0), aurora: None, settings: settings() };
+    renderer.picture(&input, false).unwrap();
+    let counters = renderer.counters().unwrap();
+    let work = renderer.timing().work().iter().find(|(part, _)| *part == "lists of bodies").map(|(_, time)| *time);
+    println!("{} images, {work:?} ms of the processor", counters.images);
+    assert_eq!((counters.left_out, counters.simpler, counters.caught), (0, 0, 0));
+    assert!(counters.images > 10_000 && counters.model_vertices == 12 * counters.images);
+}
