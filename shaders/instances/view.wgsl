@@ -66,8 +66,9 @@ fn extent_of(low: f32, high: f32, centre: f32, path: f32, beside: vec2<f32>, r: 
     if reach < distance {
         round = angle_of_sine(reach, distance);
     }
-    var side = frame.side_a;
-    if distance > 1e-9 * r {
+    // On the axis any side will do: what is left across it there is rounding.
+    var side = frame.side_b;
+    if distance > 1e-6 * r {
         side = (frame.side_a * beside.x + frame.side_b * beside.y) * (turn_of(order) / distance);
     }
     let at = sine_cosine(centre);

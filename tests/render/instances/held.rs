@@ -1,6 +1,6 @@
 //! What is held: the card places it as the processor would.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec3};
@@ -82,16 +82,21 @@ fn the_card_places_what_is_held_as_the_processor_would() {
     let mut random = StdRng::seed_from_u64(55);
     let mut renderer = renderer(SIZE);
     let mut models = ModelSet::default();
-    let ball = shapes::icosphere(1280, Material::default());
+    let ball = shapes::icosphere(320, Material::default());
     let model = models.add(&ball);
     let coarser: Vec<StandIn> =
         stand_ins(&ball).iter().map(|other| StandIn { below: 0.25 / other.moved, model: models.add(&other.model) }).collect();
     assert!(coarser.len() > 1);
     let aspect = Some(f64::from(SIZE[1]) / f64::from(SIZE[0]));
-    let (mut compared, mut other_flags, mut other_models, mut one_sided, mut folded) = (0, 0, 0, 0, 0);
+    // Over what each may be, the largest, and whose it is.
+    let mut worst: BTreeMap<&str, (f32, String)> = BTreeMap::new();
+    // Images of one side alone, and whose flags or crossings, models, or kinds of bounds are others: next to a limit rounding decides.
+    let (mut compared, mut folded, mut others) = (0, 0, [0; 4]);
     for (number, camera) in cameras(&mut random).into_iter().enumerate() {
-        let settings = Settings { pixel_error: [0.5, 2.0][number % 2], coarse_below: [0.0, 3.0][number / 2 % 2], ..settings() };
-        let objects: Vec<DrawnObject> = (0..600)
+        let [pixel_error, coarse_below] = [[0.5, 2.0][number % 2], [0.0, 3.0][number / 2 % 2]];
+        // What is drawn of it does not matter here.
+        let settings = Settings { pixel_error: pixel_error as f32, coarse_below, vertex_budget: 1_000, ..settings() };
+        let objects: Vec<DrawnObject> = (0..400)
             .map(|k| {
                 let (position, reach) = place(&mut random, k, &camera);
                 let light = Illumination { ambient: [0.1, 0.2, 0.3], directed: [direction(&mut random).as_vec3().to_array(); 3] };
@@ -111,58 +116,69 @@ fn the_card_places_what_is_held_as_the_processor_would() {
         let slice = Slice::new(renderer.table(), camera.radius());
         let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(SIZE[0]);
         let view = InstanceView { camera: &camera, slice: &slice, pixel, aspect, settings: &settings };
-        let mut vertices = 0;
         for placed in objects.iter().flat_map(|object| instances_of(&view, 0.0, object, settings.orders)) {
             let want = placed.instance;
             let Some(got) = card.remove(&[want.object, want.order, want.flags & MINUS]) else {
-                one_sided += 1;
+                others[0] += 1;
                 continue;
             };
             compared += 1;
             folded += u32::from(want.flags & MINUS != 0);
-            vertices += got.vertex_count;
-            let what = || format!("{camera:?}\n{want:?}\n{got:?}");
-            other_flags += u32::from(got.flags != want.flags || got.crossings != want.crossings);
-            other_models += u32::from([got.first_vertex, got.vertex_count] != placed.model.vertices);
+            let mut note = |what, off: f32, limit: f32| {
+                let share = off / limit;
+                if worst.get(what).is_none_or(|(most, _)| share.is_nan() || share > *most) {
+                    worst.insert(what, (share, format!("{off}, {camera:?}\n{want:?}\n{got:?}")));
+                }
+            };
             // A rounding or two of f32.
             let [offset, position] = [want.offset, want.position].map(|v| DVec3::from_array(v.map(f64::from)).length() as f32);
-            assert!(apart(&got.offset, &want.offset) <= 2e-7 * offset && got.position == want.position, "{}", what());
+            let reach = want.rounding / 4e-7;
+            note("offset", apart(&got.offset, &want.offset), 3e-7 * offset);
+            note("position", apart(&got.position, &want.position), f32::MIN_POSITIVE);
             let axes = |i: &Instance| [i.turn_x, i.turn_y, i.turn_z, i.shape_x, i.shape_y, i.shape_z].concat();
-            assert!(apart(&axes(&got), &axes(&want)) < 5e-7 * (1.0 + want.rounding / 4e-7), "{}", what());
-            assert!(got.light == want.light && got.gamma == 1.0 && got.scale == 0.0 && got.delay == 0.0, "{}", what());
+            note("axes", apart(&axes(&got), &axes(&want)), 5e-7 * (1.0 + reach));
+            note("light", apart(got.light.as_flattened(), want.light.as_flattened()), f32::MIN_POSITIVE);
+            note("constants", apart(&[got.gamma, got.scale, got.delay], &[1.0, 0.0, 0.0]), f32::MIN_POSITIVE);
             let across = apart(&[got.across_a, got.across_b], &[want.across_a, want.across_b]);
-            assert!(across <= 4e-7 * offset.min(position) + 2e-6 * want.rounding, "{across}: {}", what());
-            assert!((got.rounding - want.rounding).abs() <= 2e-7 * want.rounding, "{}", what());
-            if got.flags != want.flags {
+            note("across", across, 4e-7 * offset.min(position) + 2e-6 * want.rounding);
+            note("rounding", (got.rounding - want.rounding).abs(), 2e-7 * want.rounding);
+            others[2] += u32::from([got.first_vertex, got.vertex_count] != placed.model.vertices);
+            if got.flags != want.flags || got.crossings != want.crossings {
+                others[1] += 1;
                 continue;
             }
-            // By the widths of the images, which the points' roundings over the body's size are worth.
-            let rough = 2e-3 + 1e-5 * offset.min(position) / (want.rounding / 4e-7);
-            assert!((got.strictness / want.strictness - 1.0).abs() < rough, "{}", what());
-            // Next to a limit another kind of bounds is taken; each is right.
+            // By the width of the image: what the roundings of its points are worth over the size of the body.
+            let rough = 1e-6 * offset.min(position) / reach;
+            note("strictness", (got.strictness / want.strictness - 1.0).abs(), 2e-3 + 20.0 * rough);
             for (got, want) in got.bounds.iter().zip(&want.bounds) {
                 if (got.rim == 0.0) != (want.rim == 0.0) || got.rim * want.rim < 0.0 {
-                    one_sided += 1;
+                    others[3] += 1;
                     continue;
                 }
                 let angle = |rim: f32| 2.0 * (0.5 * rim.abs().sqrt()).min(1.0).asin();
                 let off = apart(&got.middle, &want.middle) + (angle(got.rim) - angle(want.rim)).abs();
-                assert!(off < 0.05 * angle(want.rim) + 1e-3, "{off}: {}", what());
+                note("bounds", off, 1e-3 + (0.01 + 20.0 * rough) * angle(want.rim));
             }
         }
-        one_sided += card.len();
-        assert!(counters.model_vertices >= vertices);
+        others[0] += card.len() as u32;
     }
-    println!("{compared} images compared, {folded} by E < 0; {one_sided} of one side, {other_flags} flags, {other_models} models");
-    assert!(compared > 2000 && folded > 5);
-    assert!(one_sided * 200 < compared as usize && other_flags * 200 < compared && other_models * 200 < compared);
+    println!("{compared} images compared, {folded} by light of E < 0; others: {others:?}");
+    for (what, (share, _)) in &worst {
+        println!("{what}: {share} of what it may be off");
+    }
+    assert!(compared > 1500 && folded > 5);
+    assert!(others.iter().all(|other| other * 200 < compared), "{others:?} of {compared}");
+    for (what, (share, whose)) in &worst {
+        assert!(*share <= 1.0, "{what}: {whose}");
+    }
 }
 
 /// What is held is drawn as if the processor had placed it, by every method.
 #[test]
 fn the_card_and_the_processor_draw_the_same_picture() {
-    let mut renderer = renderer(SIZE);
-    let ball = shapes::icosphere(320, Material::default());
+    let size = [160, 90];
+    let mut renderer = renderer(size);
+    let ball = shapes::icosphere(80, Material::default());
     let mut models = ModelSet::default();
     let model = models.add(&ball);
     let camera = static_camera(DVec3::new(3.0, 2.0, 14.0), DVec3::new(-3.0, -2.0, -14.0), DVec3::Y, 1.2);
@@ -175,7 +191,7 @@ fn the_card_and_the_processor_draw_the_same_picture() {
     let mut held = HeldBodies::default();
     objects.iter().for_each(|object| held.add(object));
     renderer.upload(&SceneUpload { models, held, ..SceneUpload::default() });
-    let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(SIZE[0]);
+    let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(size[0]);
     let slice = Slice::new(renderer.table(), camera.radius());
     for method in methods::METHODS {
         let settings = Settings { method, ..settings() };
@@ -187,10 +203,10 @@ fn the_card_and_the_processor_draw_the_same_picture() {
         let by_both = FrameInput { held: Some(0), ..by_processor.clone() };
         let [want, got, both] = [by_processor, by_card, by_both].map(|input| renderer.picture(&input, true).unwrap());
         let drawn = want.layers.iter().filter(|pixel| pixel[0] > 0.0).count();
-        assert!(drawn > 300, "{method:?}: {drawn}");
+        assert!(drawn > 100, "{method:?}: {drawn}");
         for other in [&got, &both] {
             let off = want.layers.iter().zip(&other.layers).filter(|(a, b)| a[..2] != b[..2]).count();
-            assert!(off * 200 <= drawn, "{method:?}: {off} of {drawn} pixels show something else");
+            assert!(off * 100 <= drawn, "{method:?}: {off} of {drawn} pixels show something else");
         }
         assert!(method == flat::METHOD || crate::render::support::apart(&got, &want) < 0.02, "{method:?}");
     }
@@ -233,12 +249,12 @@ fn a_hundred_thousand_bodies_are_placed() {
         held.add(&DrawnObject { model, coarse: model, stand_ins: &[], motion, reach: 0.05, scale: 0.05, id, light });
     }
     renderer.upload(&SceneUpload { models, held, ..SceneUpload::default() });
-    let camera = static_camera(DVec3::new(1.0, 2.0, 30.0), DVec3::NEG_Z, DVec3::Y, 1.0);
+    let camera = static_camera(DVec3::new(1.0, 2.0, 30.0), DVec3::NEG_Z, DVec3::Y, 0.3);
     let input = FrameInput { camera, time: 0.0, placed: Vec::new(), held: Some(0), aurora: None, settings: settings() };
     renderer.picture(&input, false).unwrap();
     let counters = renderer.counters().unwrap();
     let work = renderer.timing().work().iter().find(|(part, _)| *part == "lists of bodies").map(|(_, time)| *time);
     println!("{} images, {work:?} ms of the processor", counters.images);
     assert_eq!((counters.left_out, counters.simpler, counters.caught), (0, 0, 0));
-    assert!(counters.images > 10_000 && counters.model_vertices == 12 * counters.images);
+    assert!(counters.images > 1_000 && counters.model_vertices == 12 * counters.images);
 }
