@@ -4,7 +4,7 @@ use crate::render::gpu::layout::{TABLE_ROW, TABLE_ROWS};
 use crate::render::gpu::types::placed::THIN;
 use crate::render::gpu::types::{CHUNK, Capacity, Chunk, Counters, HeldFrame, Instance, SeenVertex};
 use crate::render::instances::Placed;
-use crate::render::instances::held::{HeldCount, HeldImages};
+use crate::render::instances::held::HeldImages;
 use crate::render::instances::local_motion::MotionNode;
 
 /// Groups along the first dimension of a dispatch (65,535 is the limit).
@@ -40,7 +40,7 @@ impl BodyLists {
         let mut instances: Vec<Instance> = Vec::with_capacity(placed.len());
         let mut chunks: [Vec<Chunk>; 3] = Default::default();
         let drawn = || placed.iter().filter(|item| item.instance.is_finite());
-        let most_held = held.map_or_else(HeldCount::default, |held| held.most);
+        let most_held = held.map(|held| held.most).unwrap_or_default();
         // States of edges lie behind those of all vertices.
         let all_vertices: u32 = drawn().map(|item| item.model.vertices[1]).sum();
         let vertices_end = end(all_vertices, most_held.vertices, vertex_limit(budget, most));
