@@ -1,21 +1,10 @@
 // Between the stages: one thread that turns counts into indirect arguments. They lie in a group of their own, because a buffer cannot be
 // written and drive a dispatch at once.
 
-#import lensrunner::geometry::bindings::counters
+#import lensrunner::geometry::bindings::{Arguments, counters}
 #import lensrunner::gpu::bindings::frame
 
 @group(2) @binding(0) var<storage, read_write> arguments: Arguments;
-
-/// Indirect arguments, one row of four words each (an indexed draw takes two).
-struct Arguments {
-    refine: vec4<u32>,
-    mesh: vec4<u32>,
-    opaque: vec4<u32>,
-    opaque_rest: vec4<u32>,
-    thin: vec4<u32>,
-    mesh_vertices: vec4<u32>,
-    thin_lists: vec4<u32>,
-}
 
 /// Before each pass of splitting: switches to the queue that was filled, and empties the other.
 @compute @workgroup_size(1)

@@ -7,7 +7,7 @@
 @group(1) @binding(1) var vertex_table: texture_2d<u32>;
 @group(1) @binding(2) var edge_table: texture_2d<u32>;
 @group(1) @binding(3) var triangle_table: texture_2d<u32>;
-/// Chunks of 64 threads of one instance, two a texel, filled up to the size of the dispatch with NO_INSTANCE.
+/// Chunks of 64 threads of one instance, one a texel, filled up to the size of the dispatch with NO_INSTANCE.
 @group(1) @binding(4) var chunk_table: texture_2d<u32>;
 // Seven storage buffers and the arguments make eight: WebGPU guarantees no more to a stage.
 @group(1) @binding(5) var<storage, read_write> seen: array<SeenVertex>;
@@ -51,8 +51,7 @@ fn model_triangle(number: u32) -> ModelTriangle {
 }
 
 fn chunk_of(number: u32) -> Chunk {
-    let two = textureLoad(chunk_table, table_place(number / 2u), 0);
-    let words = select(two.xy, two.zw, (number & 1u) == 1u);
+    let words = textureLoad(chunk_table, table_place(number), 0);
     return Chunk(words.x, words.y);
 }
 
@@ -84,9 +83,30 @@ struct Counters {
     passes: u32,
     /// 1 in the last pass: what would be split is drawn as it is.
     is_last: u32,
-    /// Images that are drawn by their coarsest model because finer ones have no room, and those that have none at all.
-    reduced: u32,
-    left_out: u32,
+    /// Images that show their coarsest model because finer ones found no room, and those that found none at all.
+    simpler: atomic<u32>,
+    left_out: atomic<u32>,
+    /// What is taken, by the processor and by what is held: instances, seen vertices and states in both rooms of `HeldFrame`, chunks of
+    /// vertices, edges and triangles.
+    images: atomic<u32>,
+    held_vertices: array<atomic<u32>, 2>,
+    held_states: array<atomic<u32>, 2>,
+    chunks: array<atomic<u32>, 3>,
+}
+
+/// Indirect arguments, one row of four words each (an indexed draw takes two).
+struct Arguments {
+    refine: vec4<u32>,
+    mesh: vec4<u32>,
+    opaque: vec4<u32>,
+    opaque_rest: vec4<u32>,
+    thin: vec4<u32>,
+    mesh_vertices: vec4<u32>,
+    thin_lists: vec4<u32>,
+    /// Over the chunks of the first three stages, where something is held in place.
+    vertices: vec4<u32>,
+    edges: vec4<u32>,
+    triangles: vec4<u32>,
 }
 
 const NO_INSTANCE: u32 = 0xffffffffu;

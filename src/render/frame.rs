@@ -23,10 +23,20 @@ pub struct FrameInput {
     pub time: f64,
     /// Objects in each order they are seen in.
     pub placed: Vec<Placed>,
+    /// Bits of [`placed`](types::placed) that every image of what the scene holds gets besides; None: nothing of it is drawn. What is held
+    /// the renderer has ([`SceneUpload`](crate::render::renderer::SceneUpload)).
+    pub held: Option<u32>,
     /// The aurora, if there is one in sight.
     pub aurora: Option<AuroraFrame>,
     /// How to draw.
     pub settings: Settings,
+}
+
+impl FrameInput {
+    /// Whether bodies are drawn.
+    pub fn has_bodies(&self) -> bool {
+        self.held.is_some() || !self.placed.is_empty()
+    }
 }
 
 /// The uniform of a frame of `size` pixels.

@@ -52,6 +52,9 @@ impl Shown<'_> {
     /// The compute passes before anything is drawn.
     pub fn compute(&self, recording: &mut Recording) {
         let geometry = self.geometry;
+        if geometry.has_held() {
+            recording.compute("place", |pass| geometry.place(pass));
+        }
         if !geometry.is_empty() {
             recording.compute("vertices", |pass| geometry.vertices(pass));
             recording.compute("edges", |pass| geometry.edges(pass));

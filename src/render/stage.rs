@@ -22,7 +22,8 @@ use crate::render::aurora::{AuroraAnimation, AuroraFrame, PlanetLine};
 use crate::render::disk::DrawnDisk;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::types::placed::OWN;
-use crate::render::instances::{DrawnObject, InstanceView, ObjectMotion, Placed, StandIn, instances_of};
+use crate::render::instances::held::HeldBodies;
+use crate::render::instances::{DrawnObject, Illumination, InstanceView, ObjectMotion, Placed, StandIn, instances_of};
 use crate::render::models::coarse::stand_ins;
 use crate::render::models::{ModelRange, ModelSet};
 use crate::render::post_process::upscale::drawn_size;
@@ -33,9 +34,10 @@ use crate::render::settings::Settings;
 /// A scene's objects, ready to be placed.
 #[derive(Debug)]
 pub struct Stage {
-    objects: Vec<(scene::Object, LevelsOfDetail)>,
-    /// Farthest vertex of each object from its centre, in r_s.
-    reaches: Vec<f64>,
+    /// All but what is held in place, which the renderer has.
+    objects: Vec<StagedObject>,
+    /// Whether anything is held in place.
+    holds: bool,
     table: Arc<Table>,
     camera: scene::SceneCamera,
     sky: (bool, bool, f32),
@@ -61,6 +63,26 @@ struct LevelsOfDetail {
     model: ModelRange,
     coarse: ModelRange,
     stand_ins: Vec<StandIn>,
+}
+
+/// An object, ready to be placed.
+#[derive(Clone, Debug)]
+struct StagedObject {
+    object: scene::Object,
+    model: LevelsOfDetail,
+    /// Farthest vertex from its centre, in r_s.
+    reach: f64,
+    /// Its number for the layers of a picture, from 1.
+    id: u32,
+}
+
+impl StagedObject {
+    /// As it moves, under what shines on it.
+    fn drawn<'a>(&'a self, motion: ObjectMotion<'a>, light: Illumination) -> DrawnObject<'a> {
+        let LevelsOfDetail { model, coarse, stand_ins } = &self.model;
+        let (reach, scale, id) = (self.reach, self.object.scale, self.id);
+        DrawnObject { model: *model, coarse: *coarse, stand_ins, motion, reach, scale, id, light }
+    }
 }
 
 impl Stage {
@@ -112,21 +134,31 @@ impl Stage {
             })
             .collect();
         let radii: Vec<f64> = assembly.models.iter().map(|model| f64::from(model.radius())).collect();
-        let reaches = assembly.objects.iter().map(|object| radii[object.model] * object.scale).collect();
-        let objects = assembly.objects.into_iter().map(|object| {
-            let range = ranges[object.model].clone();
-            (object, range)
-        });
+        let lights = Lights::of(scene, config);
+        let mut held = HeldBodies::default();
+        let mut objects = Vec::new();
+        for (id, object) in (1..).zip(assembly.objects) {
+            let (model, reach) = (ranges[object.model].clone(), radii[object.model] * object.scale);
+            let staged = StagedObject { object, model, reach, id };
+            match staged.object.body {
+                Body::Static { position, attitude } => {
+                    let light = lights.on(&staged.object.body, position);
+                    held.add(&staged.drawn(ObjectMotion::Static { position, attitude }, light));
+                }
+                _ => objects.push(staged),
+            }
+        }
         let disk = scene.disk(config);
-        let upload = SceneUpload { models, disk: disk.clone().map(|disk| DrawnDisk::new(disk, config)), rehearsal: Vec::new() };
+        let holds = !held.bodies().is_empty();
+        let upload = SceneUpload { models, held, disk: disk.clone().map(|disk| DrawnDisk::new(disk, config)), rehearsal: Vec::new() };
         let disk = disk.map(|disk| [disk.inner, disk.outer]);
         let stage = Stage {
-            objects: objects.collect(),
-            reaches,
+            objects,
+            holds,
             table: table.clone(),
             camera: scene.camera.clone(),
             sky: (scene.sky.stars, scene.sky.milky_way, scene.sky.brightness as f32),
-            lights: Lights::of(scene, config),
+            lights,
             engines: scene.ships.iter().map(|ship| (ship.ai == Ai::Flee && !ship.player, ship.max_thrust)).collect(),
             planet: scene.planet,
             globe: PlanetLine::default(),
@@ -158,7 +190,7 @@ impl Stage {
 
     /// What of it takes time.
     pub fn class(&self) -> SceneClass {
-        SceneClass::of(!self.objects.is_empty(), self.disk.is_some(), self.animation.is_some())
+        SceneClass::of(self.holds || !self.objects.is_empty(), self.disk.is_some(), self.animation.is_some())
     }
 
     /// The scene's own camera at T = `time`; `ships` are the states of the ships then, by name.
@@ -196,26 +228,17 @@ impl Stage {
         let globe = self.planet.as_ref().and_then(|planet| line.about(planet, time, back));
         let mut placed = Vec::new();
         let mut unmetered = [0.0; 3];
-        for (number, (object, model)) in self.objects.iter().enumerate() {
-            let ship = match object.body {
+        for staged in &self.objects {
+            let body = &staged.object.body;
+            let ship = match *body {
                 Body::Ship(index) => Some(index),
                 _ => None,
             };
             if ship.is_some() && ship == hidden {
                 continue;
             }
-            let line = self.worldline(&object.body, histories, globe);
-            let Some((motion, position)) = motion(&object.body, time, line) else { continue };
-            let object = DrawnObject {
-                model: model.model,
-                coarse: model.coarse,
-                stand_ins: &model.stand_ins,
-                motion,
-                reach: self.reaches[number],
-                scale: object.scale,
-                id: number as u32 + 1,
-                light: self.lights.on(&object.body, position),
-            };
+            let Some(line) = self.worldline(body, histories, globe) else { continue };
+            let object = staged.drawn(ObjectMotion::Flying(line), self.lights.on(body, line.at(time).position));
             let mut images = instances_of(&view, time, &object, settings.orders);
             if let Some(ship) = ship {
                 if let Some(full) = self.full_thrust(ship, settings) {
@@ -230,10 +253,11 @@ impl Stage {
         }
         self.globe = line;
         let aurora = self.aurora(&view, time, back);
-        FrameInput { camera, time, placed, aurora, settings: Settings { unmetered, ..self.with_sky(settings) } }
+        let held = self.holds.then_some(0);
+        FrameInput { camera, time, placed, held, aurora, settings: Settings { unmetered, ..self.with_sky(settings) } }
     }
 
-    /// The worldline of a body that flies.
+    /// The worldline of a body that flies; None of any other, or if it is not known.
     fn worldline<'a>(&self, body: &Body, histories: &[&'a History], globe: Option<&'a History>) -> Option<&'a History> {
         match *body {
             Body::Static { .. } => None,
@@ -249,9 +273,9 @@ impl Stage {
     fn aurora(&mut self, view: &InstanceView, time: f64, back: f64) -> Option<AuroraFrame> {
         let mut aurora = self.animation.as_mut()?.frame(view, time, back, view.settings.orders)?;
         // Only the planet is lit by it.
-        let globe = self.objects.iter().position(|(object, _)| object.body == Body::Planet);
-        if let (Some(ground), Some(number)) = (aurora.ground.as_mut(), globe) {
-            ground.light.planet = number as u32 + 1;
+        let globe = self.objects.iter().find(|staged| staged.object.body == Body::Planet);
+        if let (Some(ground), Some(globe)) = (aurora.ground.as_mut(), globe) {
+            ground.light.planet = globe.id;
         }
         Some(aurora)
     }
@@ -266,14 +290,6 @@ impl Stage {
             sky_brightness: settings.sky_brightness * brightness,
             ..*settings
         }
-    }
-}
-
-/// How a body moves, and where it is at T = `time`; None for one that flies if its worldline is not known.
-fn motion<'a>(body: &Body, time: f64, line: Option<&'a History>) -> Option<(ObjectMotion<'a>, DVec3)> {
-    match *body {
-        Body::Static { position, attitude } => Some((ObjectMotion::Static { position, attitude }, position)),
-        Body::Ship(_) | Body::Planet | Body::Ghost | Body::Bolt(_) => line.map(|line| (ObjectMotion::Flying(line), line.at(time).position)),
     }
 }
 

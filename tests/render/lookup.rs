@@ -65,7 +65,7 @@ impl Bench {
 
     /// The model's vertices as the GPU sees them, instance by instance.
     pub fn seen(&mut self, camera: Observer, time: f64, placed: Vec<Placed>, settings: Settings) -> Vec<SeenVertex> {
-        let frame = FrameInput { camera, time, placed, aurora: None, settings };
+        let frame = FrameInput { camera, time, placed, held: None, aurora: None, settings };
         self.renderer.picture(&frame, false).unwrap();
         let bytes = readback::buffer(&GPU, self.renderer.geometry().seen()).unwrap();
         bytemuck::cast_slice(&bytes[..bytes.len() / size_of::<SeenVertex>() * size_of::<SeenVertex>()]).to_vec()
@@ -141,7 +141,7 @@ fn what_was_foreseen_is_seen_inside() {
     // Another method before the first crossing: what was foreseen for the one before is kept, and this one is foreseen as well.
     for method in [flat::METHOD, Method::default()] {
         let settings = Settings { method, ..Settings::finest() };
-        let frame = FrameInput { camera: outside, time: 0.0, placed: Vec::new(), aurora: None, settings };
+        let frame = FrameInput { camera: outside, time: 0.0, placed: Vec::new(), held: None, aurora: None, settings };
         foreseeing.renderer.picture(&frame, false).unwrap();
         foreseeing.renderer.precompile_the_inside();
     }
@@ -377,7 +377,7 @@ fn paper_one_projects_by_its_tables_and_drops_triangles() {
         (object.model, object.coarse) = (square, square);
         let eye = static_camera(DVec3::new(0.0, 0.0, 15.0), DVec3::NEG_Z, DVec3::Y, 1.0);
         let placed = bench.place(&eye, 0.0, &object, &settings);
-        let frame = FrameInput { camera: eye, time: 0.0, placed, aurora: None, settings };
+        let frame = FrameInput { camera: eye, time: 0.0, placed, held: None, aurora: None, settings };
         let picture = bench.renderer.picture(&frame, true).unwrap();
         (picture.layers.iter().filter(|texel| texel[0] == 1.0).count(), bench.renderer.counters().unwrap().indices / 3)
     };

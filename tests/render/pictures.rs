@@ -74,7 +74,7 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
             }));
         }
     }
-    let frame = FrameInput { camera, time: 0.0, placed, aurora: None, settings: Settings::finest() };
+    let frame = FrameInput { camera, time: 0.0, placed, held: None, aurora: None, settings: Settings::finest() };
     renderer.picture(&frame, false).unwrap();
     let bytes = readback::buffer(&GPU, renderer.geometry().seen()).unwrap();
     // A buffer that grew has room to spare.
@@ -227,7 +227,7 @@ fn with_the_back_to_the_disk_stars_are_exposed_as_without_one() {
     let mut light = |ahead: DVec3, with: bool| {
         renderer.set_disk(with.then(disk));
         let camera = static_camera(DVec3::new(0.0, -16.0, 1.0), ahead, DVec3::Z, 1.0);
-        let frame = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: None, settings: Settings::finest() };
+        let frame = FrameInput { camera, time: 0.0, placed: Vec::new(), held: None, aurora: None, settings: Settings::finest() };
         renderer.picture(&frame, false).unwrap().display.iter().map(|&byte| f64::from(byte)).sum::<f64>()
     };
     let [away, alone] = [true, false].map(|with| light(DVec3::NEG_Y, with));

@@ -19,7 +19,7 @@ use crate::support::shared_table;
 fn picture(stars: &[Star], haze: f32, camera: Observer, size: [u32; 2], settings: Settings) -> ReadbackPicture {
     let surroundings = Surroundings { table: shared_table(), stars: stars.to_vec(), milky_way: vec![(1, 1, vec![haze])] };
     let mut renderer = renderer_under(&surroundings, size);
-    let input = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: None, settings };
+    let input = FrameInput { camera, time: 0.0, placed: Vec::new(), held: None, aurora: None, settings };
     renderer.picture(&input, false).unwrap()
 }
 
@@ -83,7 +83,7 @@ fn no_star_on_the_screen_is_left_out() {
         let attitude = DQuat::from_rotation_y(angle) * DQuat::from_rotation_x(0.4);
         let camera = Observer { position, momentum, attitude, field_of_view: 1.05 };
         let settings = Settings { bloom: 0.0, star_brightness: 1.0, ..Settings::finest() };
-        renderer.picture(&FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: None, settings }, false).unwrap();
+        renderer.picture(&FrameInput { camera, time: 0.0, placed: Vec::new(), held: None, aurora: None, settings }, false).unwrap();
         let [groups, seen, arguments] = renderer.stars().lists().map(|buffer| readback::buffer(renderer.gpu(), buffer).unwrap());
         let words = |bytes: &[u8]| bytemuck::pod_collect_to_vec::<u8, u32>(bytes);
         kept += words(&groups)[3];

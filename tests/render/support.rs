@@ -92,6 +92,7 @@ pub fn aurora_alone(stage: &mut Stage, camera: Observer, size: [u32; 2], time: f
     (settings.stars, settings.milky_way, settings.bloom) = (false, false, 0.0);
     let mut frame = stage.frame(camera, size, time, &[], None, &settings);
     frame.placed.clear();
+    frame.held = None;
     frame
 }
 

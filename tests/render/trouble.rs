@@ -25,7 +25,7 @@ fn ball(bench: &Bench, position: DVec3, size: f64, settings: &Settings) -> Vec<P
 }
 
 fn frame(placed: Vec<Placed>, settings: Settings) -> FrameInput {
-    FrameInput { camera: camera(), time: 0.0, placed, aurora: None, settings }
+    FrameInput { camera: camera(), time: 0.0, placed, held: None, aurora: None, settings }
 }
 
 /// A device that is lost: an error in words, then and afterwards, and no panic.

@@ -69,7 +69,7 @@ impl Bench {
         let mut settings = settings(config);
         settings.stars &= view.sky;
         settings.milky_way &= view.sky;
-        let input = FrameInput { camera: view.eye, time: view.time, placed: Vec::new(), aurora: None, settings };
+        let input = FrameInput { camera: view.eye, time: view.time, placed: Vec::new(), held: None, aurora: None, settings };
         if let Some(size) = picture {
             renderer.resize(size);
             let drawn = renderer.picture(&input, false);

@@ -143,7 +143,7 @@ impl Stand<'_> {
         let Some(times) = times else { return Ok(()) };
         drawn.work.splice(0..0, [(PROCESSOR, "simulation", simulation), (PROCESSOR, "instances and aurora", placing)]);
         drawn.whole += simulation + placing;
-        let bare = FrameInput { placed: Vec::new(), aurora: None, ..frame.clone() };
+        let bare = FrameInput { placed: Vec::new(), held: None, aurora: None, ..frame.clone() };
         let alone = self.draw(&bare)?;
         self.renderer.timing().set_steps(&self.bench.gpu, true);
         self.draw(&frame)?;

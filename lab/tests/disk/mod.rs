@@ -31,7 +31,7 @@ fn of_orders(orders: u32) -> Settings {
 
 /// Linear light of the renderer's disk alone.
 fn shown(renderer: &mut Renderer, camera: Observer, time: f64, settings: Settings) -> Vec<[f32; 3]> {
-    let input = FrameInput { camera, time, placed: Vec::new(), aurora: None, settings };
+    let input = FrameInput { camera, time, placed: Vec::new(), held: None, aurora: None, settings };
     renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect()
 }
 

@@ -127,5 +127,7 @@ fn rehearsal(mut stage: InMut<Stage>, now: Now) -> Vec<FrameInput> {
     let mut thin = own.placed.clone();
     thin.iter_mut().for_each(|image| image.instance.flags |= THIN);
     own.placed.append(&mut thin);
-    vec![frame(FrameCamera::afar(state.position, 0.0, field_of_view)), own]
+    let mut far = frame(FrameCamera::afar(state.position, 0.0, field_of_view));
+    far.held = far.held.map(|flags| flags | THIN);
+    vec![far, own]
 }

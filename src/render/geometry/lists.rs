@@ -1,13 +1,13 @@
 //! The lists that tell the stages what there is: the objects of a frame and the chunks of their models. Plain data of the processor.
 
+use crate::render::gpu::layout::{TABLE_ROW, TABLE_ROWS};
 use crate::render::gpu::types::placed::THIN;
-use crate::render::gpu::types::{Capacity, Chunk, Counters, Instance, SeenVertex};
+use crate::render::gpu::types::{CHUNK, Capacity, Chunk, Counters, HeldFrame, Instance, SeenVertex};
 use crate::render::instances::Placed;
+use crate::render::instances::held::HeldImages;
 use crate::render::instances::local_motion::MotionNode;
 use crate::render::models::ModelRange;
 
-/// Threads of a workgroup; `@workgroup_size` of the stages.
-const LANES: u32 = 64;
 /// Groups along the first dimension of a dispatch (65,535 is the limit).
 const GROUPS: u32 = 32_768;
 
@@ -18,8 +18,12 @@ pub struct BodyLists {
     pub(super) texels: Vec<[f32; 4]>,
     /// Of vertices, edges, triangles.
     pub(super) chunks: [Vec<Chunk>; 3],
-    /// Groups to dispatch over them.
+    /// Groups to dispatch over them, if nothing is held.
     pub(super) dispatch: [[u32; 2]; 3],
+    /// What is held, with the room that its images have.
+    pub(super) held: Option<HeldFrame>,
+    /// Chunks of it, at most.
+    held_chunks: [u64; 3],
     /// Vertices and edges of all models.
     pub(super) states: u32,
     /// Where the counters begin.
@@ -31,9 +35,10 @@ pub struct BodyLists {
 }
 
 impl BodyLists {
-    /// Of what is `placed`, with room for `budget` vertices of the mesh stage; no buffer may be larger than `most` bytes. Where models do not
-    /// fit, the smallest images are drawn by their coarsest stand-ins, and where those do not, they are left out; both are counted.
-    pub fn new(placed: &[Placed], budget: u32, most: u64) -> BodyLists {
+    /// Of what is `placed` and, behind it, what is `held`, with room for `budget` vertices of the mesh stage; no buffer may be larger than
+    /// `most` bytes. Where models do not fit, the smallest images are drawn by their coarsest stand-ins, and where those do not, they are left
+    /// out; both are counted.
+    pub fn new(placed: &[Placed], held: Option<HeldImages>, budget: u32, most: u64) -> BodyLists {
         let fitted = Fitted::new(placed, (MODELS * most as f64 / size_of::<SeenVertex>() as f64) as u64);
         let mut instances: Vec<Instance> = Vec::with_capacity(placed.len());
         let mut chunks: [Vec<Chunk>; 3] = Default::default();
@@ -41,22 +46,24 @@ impl BodyLists {
             let finite = placed.iter().enumerate().filter(|(_, item)| item.instance.is_finite());
             finite.filter_map(|(number, item)| Some((item, fitted.model(number, item)?)))
         };
-        // States of edges lie behind those of vertices.
+        let most_held = held.map(|held| held.most).unwrap_or_default();
+        // States of edges lie behind those of all vertices.
         let all_vertices: u32 = drawn().map(|(_, model)| model.vertices[1]).sum();
+        let vertices_end = end(all_vertices, most_held.vertices, vertex_limit(budget, most));
         // What is not finite is left out here; counted with what the shaders leave out.
         let refused = placed.iter().filter(|item| !item.instance.is_finite()).count() as u32;
         let calmed = placed.iter().filter(|item| item.calmed).count() as u32;
         let (mut vertices, mut edges, mut triangles) = (0, 0, 0);
         for (item, model) in drawn() {
             let mut instance = item.instance;
-            (instance.first_seen, instance.first_state) = (vertices, all_vertices + edges);
+            (instance.first_seen, instance.first_state) = (vertices, vertices_end + edges);
             [instance.first_vertex, instance.vertex_count] = model.vertices;
             [instance.first_edge, instance.edge_count] = model.edges;
             [instance.first_triangle, instance.triangle_count] = model.triangles;
             instance.first_material = model.material;
             let number = instances.len() as u32;
             for (list, count) in chunks.iter_mut().zip([model.vertices[1], model.edges[1], model.triangles[1]]) {
-                list.extend((0..count.div_ceil(LANES)).map(|chunk| Chunk { instance: number, first: chunk * LANES }));
+                list.extend((0..count.div_ceil(CHUNK)).map(|chunk| Chunk { instance: number, first: chunk * CHUNK }));
             }
             vertices += model.vertices[1];
             edges += model.edges[1];
@@ -73,15 +80,32 @@ impl BodyLists {
             let count = chunks[kind].len() as u32;
             [count.min(GROUPS), count.div_ceil(GROUPS)]
         });
-        for (list, groups) in chunks.iter_mut().zip(dispatch) {
-            // Two are a texel.
-            list.resize((groups[0] * groups[1]).next_multiple_of(2) as usize, Chunk { instance: u32::MAX, first: 0 });
+        let mut texels = instance_table(&mut instances, drawn().map(|(item, _)| &item.nodes[..]));
+        if let Some(held) = held {
+            // Instances begin at multiples of their size.
+            texels.resize(texels.len().next_multiple_of(INSTANCE_TEXELS), [0.0; 4]);
+            // Any of their images may be thin.
+            if held.frame.has_thin == 1 || held.frame.flags & THIN != 0 {
+                thin_across[..=held.frame.orders as usize].fill(true);
+            }
+        } else {
+            for (list, groups) in chunks.iter_mut().zip(dispatch) {
+                list.resize((groups[0] * groups[1]) as usize, Chunk { instance: u32::MAX, first: 0 });
+            }
         }
+        let images = (texels.len() / INSTANCE_TEXELS) as u32;
+        let states = vertices_end + edges;
+        let states_end = end(states, most_held.edges, most / STATE_BYTES);
+        let images_end = end(images, most_held.number, (TABLE_TEXELS / INSTANCE_TEXELS) as u64);
+        // Where there may not be room for all, an eighth is kept for what is drawn coarsely when the rest is full.
+        let is_full = most_held.vertices > u64::from(vertices_end - vertices) || most_held.edges > u64::from(states_end - states);
+        let [vertices_end, states_end] = [(vertices, vertices_end), (states, states_end)]
+            .map(|(first, end): (u32, u32)| [if is_full { end - (end - first) / 8 } else { end }, end]);
         BodyLists {
-            texels: instance_table(&mut instances, drawn().map(|(item, _)| &item.nodes[..])),
-            chunks,
-            dispatch,
-            states: vertices + edges,
+            texels,
+            held: held.map(|held| HeldFrame { images_end, vertices_end, states_end, ..held.frame }),
+            held_chunks: most_held.chunks,
+            states: states_end[1],
             // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
             counters: Counters {
                 vertices,
@@ -89,14 +113,49 @@ impl BodyLists {
                 turn: 1,
                 caught: refused,
                 calmed,
-                reduced: fitted.reduced,
+                simpler: fitted.simpler,
                 left_out: fitted.left_out,
+                images,
+                held_vertices: [vertices, vertices_end[0]],
+                held_states: [states, states_end[0]],
+                chunks: [0, 1, 2].map(|kind: usize| chunks[kind].len() as u32),
                 ..Counters::default()
             },
+            chunks,
+            dispatch,
             thin_across,
-            capacity: capacity_for(budget, vertices, triangles, most),
+            capacity: capacity_for(budget, vertices_end[1], end(triangles, most_held.triangles, most / INDEX_BYTES), most),
         }
     }
+
+    /// Texels of the tables of instances and of chunks, with the room of what is held and what fills up its dispatches.
+    pub(super) fn texels_with_room(&self) -> [usize; 4] {
+        let images = self.held.map_or(0, |held| held.images_end as usize);
+        let chunks = |kind: usize| (self.chunks[kind].len() + self.held_chunks[kind] as usize).min(TABLE_TEXELS - FILLED) + FILLED;
+        [images * INSTANCE_TEXELS, chunks(0), chunks(1), chunks(2)]
+    }
+}
+
+/// Texels of an instance; `INSTANCE_TEXELS` of WGSL.
+const INSTANCE_TEXELS: usize = size_of::<Instance>() / size_of::<[f32; 4]>();
+/// Texels of the largest table.
+const TABLE_TEXELS: usize = TABLE_ROW * TABLE_ROWS;
+/// Chunks that fill up a dispatch of several rows, at most one a row.
+const FILLED: usize = TABLE_TEXELS / GROUPS as usize;
+/// Bytes of an index.
+const INDEX_BYTES: u64 = 4;
+/// Bytes of the state of a vertex or an edge.
+const STATE_BYTES: u64 = 16;
+
+/// Where the room for `more` behind the first `taken` ends, if no more than `limit` fit in all.
+fn end(taken: u32, more: u64, limit: u64) -> u32 {
+    (u64::from(taken) + more).min(limit.max(taken.into())) as u32
+}
+
+/// The most vertices that models may have where something is held: an eighth of the largest buffer is left to the mesh stage.
+fn vertex_limit(budget: u32, most: u64) -> u64 {
+    let all = most / size_of::<SeenVertex>() as u64;
+    all - u64::from(budget).min(all / 8)
 }
 
 /// The share of a buffer of seen vertices that models may take; the mesh stage has the rest.
@@ -108,7 +167,7 @@ struct Fitted {
     /// By the image's number; empty where all fit.
     models: Vec<Option<ModelRange>>,
     /// Images that are drawn by their coarsest stand-in, and those that are left out.
-    reduced: u32,
+    simpler: u32,
     left_out: u32,
 }
 
@@ -127,7 +186,7 @@ impl Fitted {
             if vertices > room && coarse.vertices[1] < model.vertices[1] {
                 vertices -= u64::from(model.vertices[1] - coarse.vertices[1]);
                 fitted.models[number] = Some(*coarse);
-                fitted.reduced += 1;
+                fitted.simpler += 1;
             }
         }
         for number in smallest_first {
@@ -150,7 +209,7 @@ impl Fitted {
 /// `most` bytes, the device's limit, as long as the models fit.
 fn capacity_for(budget: u32, vertices: u32, triangles: u32, most: u64) -> Capacity {
     let budget = budget.min(((most / size_of::<SeenVertex>() as u64) as u32).saturating_sub(vertices));
-    let indices = (2 * u64::from(budget) + 5 * u64::from(triangles)).min(most / (3 * size_of::<u32>() as u64));
+    let indices = (2 * u64::from(budget) + 5 * u64::from(triangles)).min(most / (3 * INDEX_BYTES));
     Capacity { vertices: vertices + budget, indices: 3 * indices as u32, work: budget / 10, thin: 3 * (budget / 3) }
 }
 

@@ -1,11 +1,12 @@
 //! Geometry: models projected through the table, tessellated in two stages of compute in the manner of mesh shaders, and drawn.
 //!
-//! One file of `shaders/geometry/` a stage: vertices, edges, triangles (the object stage), refine, mesh, draw. They hand to each other
-//! through the buffers of group 1; the processor only says which objects there are.
+//! One file of `shaders/geometry/` a stage: place, vertices, edges, triangles (the object stage), refine, mesh, draw. They hand to each
+//! other through the buffers of group 1; the processor only says which objects there are.
 
 mod ground;
 pub mod lists;
 mod pipelines;
+mod place;
 pub mod thin;
 
 use crate::render::gpu::targets::LAYERS_FORMAT;
@@ -13,7 +14,8 @@ use wgpu::{BufferUsages, ShaderStages};
 
 use ground::GroundBuffers;
 use lists::BodyLists;
-use pipelines::{PipelineCache, PipelineInputs};
+use pipelines::{GeometryPipelines, PipelineCache, PipelineInputs};
+use place::Placing;
 
 use crate::lensing::methods::Method;
 use crate::render::Gpu;
@@ -22,7 +24,10 @@ use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slo
 use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::types::{self, Capacity, Counters, SeenVertex};
+use crate::render::instances::held::{HeldBodies, HeldImages};
 use crate::render::models::Models;
+use crate::render::settings::Settings;
+use crate::spacetime::Observer;
 
 /// Passes of splitting: one for each depth, and one for those at the last depth.
 const REFINE_PASSES: u32 = 25;
@@ -34,7 +39,8 @@ const MORE_PASSES: u32 = 2;
 pub struct Geometry {
     group_layout: wgpu::BindGroupLayout,
     draw_layout: wgpu::BindGroupLayout,
-    pipelines: PipelineCache,
+    pipelines: PipelineCache<GeometryPipelines>,
+    placing: Placing,
     draws: Draws,
     /// Made when layers are first asked for.
     layer_draws: Option<LayerDraws>,
@@ -162,8 +168,10 @@ impl Geometry {
             arguments: arguments_layout.clone(),
             worldlines,
         };
-        let (pipelines, draws) =
-            rayon::join(|| PipelineCache::new(inputs, (Method::default(), false)), || Draws::new(device, frame_layout, &draw_layout));
+        let (pipelines, draws) = rayon::join(
+            || PipelineCache::new(inputs, GeometryPipelines::new, (Method::default(), false)),
+            || Draws::new(device, frame_layout, &draw_layout),
+        );
         let storage = BufferUsages::STORAGE;
         let arguments = buffer(device, "arguments", types::ARGUMENTS_BYTES, storage | BufferUsages::INDIRECT);
         let arguments_group = bind(device, "arguments", &arguments_layout, &[arguments.as_entire_binding()]);
@@ -173,10 +181,12 @@ impl Geometry {
             layer_draws: None,
             draw_layout,
             pipelines,
+            placing: Placing::new(device),
             lists: BodyLists::default(),
             refine_passes: REFINE_PASSES,
-            instances: TableTexture::new(device, "instances", true),
-            chunks: ["vertex chunks", "edge chunks", "triangle chunks"].map(|label| TableTexture::new(device, label, true)),
+            instances: TableTexture::written(device, "instances", wgpu::TextureFormat::Rgba32Uint),
+            chunks: ["vertex chunks", "edge chunks", "triangle chunks"]
+                .map(|label| TableTexture::written(device, label, wgpu::TextureFormat::Rg32Uint)),
             seen: Growing::new(device, "seen vertices", storage | BufferUsages::VERTEX),
             states: Growing::new(device, "states", storage),
             pieces: Growing::new(device, "pieces", storage),
@@ -195,16 +205,34 @@ impl Geometry {
     /// Takes the stages of this method of projection, for a camera inside the horizon or outside; compiles them if need be.
     pub fn set_method(&mut self, method: Method, inside: bool) {
         self.pipelines.choose((method, inside));
+        self.placing.choose((method, inside));
     }
 
     /// The camera may soon be on the other side of the horizon: compiles its stages in the background.
     pub fn precompile(&mut self, method: Method, inside: bool) {
         self.pipelines.precompile((method, inside));
+        self.placing.precompile((method, inside));
+    }
+
+    /// Takes what a scene holds in place of what was held; the first compiles the stage that places it.
+    pub fn set_held(&mut self, gpu: &Gpu, held: &HeldBodies) {
+        self.groups = None;
+        self.placing.set(gpu, held, self.pipelines.inputs(), self.pipelines.side());
+    }
+
+    /// What is held, as seen by a camera; each image gets `flags` besides. None if there is nothing.
+    pub fn held_images(&self, camera: &Observer, settings: &Settings, flags: u32) -> Option<HeldImages> {
+        self.placing.count().images(camera, settings, flags)
+    }
+
+    /// Whether anything is held in the prepared frame.
+    pub fn has_held(&self) -> bool {
+        self.lists.held.is_some()
     }
 
     /// Whether nothing is placed in the prepared frame: there is nothing to do or to draw.
     pub fn is_empty(&self) -> bool {
-        self.lists.dispatch[2][0] == 0
+        self.lists.dispatch[2][0] == 0 && !self.has_held()
     }
 
     /// Whether any image of the prepared frame is thin: else two passes over the whole screen have nothing to do.
@@ -230,9 +258,12 @@ impl Geometry {
     /// Uploads the lists of this frame, and makes room for what the stages make of them. `ground` is the aurora's light on its planet.
     pub fn prepare(&mut self, gpu: &Gpu, lists: BodyLists, ground: Option<&GroundFrame>) {
         let (device, capacity) = (&gpu.device, lists.capacity);
-        let mut replaced = self.instances.write(gpu, &lists.texels);
+        let [instances, chunks @ ..] = lists.texels_with_room();
+        let mut replaced = self.instances.reserve(device, instances);
+        replaced |= self.instances.write(gpu, &lists.texels);
         replaced |= self.ground.write(gpu, ground);
-        for (list, table) in lists.chunks.iter().zip(&mut self.chunks) {
+        for ((list, table), texels) in lists.chunks.iter().zip(&mut self.chunks).zip(chunks) {
+            replaced |= table.reserve(device, texels);
             replaced |= table.write(gpu, list);
         }
         replaced |= self.seen.reserve(device, u64::from(capacity.vertices) * size_of::<SeenVertex>() as u64);
@@ -246,6 +277,9 @@ impl Geometry {
             self.groups = None;
         }
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&lists.counters));
+        if let Some(held) = &lists.held {
+            self.placing.write(gpu, held);
+        }
         self.lists = lists;
     }
 
@@ -253,6 +287,9 @@ impl Geometry {
     pub fn bind(&mut self, device: &wgpu::Device, models: &Models) {
         if self.groups.is_none() {
             self.groups = Some(self.make_groups(device, models));
+            let [vertices, edges, triangles] = self.chunks.each_ref().map(TableTexture::binding);
+            let tables = [self.instances.binding(), vertices, edges, triangles];
+            self.placing.bind(device, [&self.counters, &self.arguments], tables);
         }
     }
 
@@ -295,9 +332,11 @@ impl Geometry {
     fn stage(&self, pass: &mut wgpu::ComputePass, pipeline: &wgpu::ComputePipeline, kind: usize) {
         let [x, y] = self.lists.dispatch[kind];
         let Some((groups, _)) = &self.groups else { return };
-        if x > 0 {
-            pass.set_pipeline(pipeline);
-            pass.set_bind_group(1, &groups[kind], &[]);
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(1, &groups[kind], &[]);
+        if self.has_held() {
+            pass.dispatch_workgroups_indirect(&self.arguments, types::ARGUMENTS_CHUNKS[kind]);
+        } else if x > 0 {
             pass.dispatch_workgroups(x, y, 1);
         }
     }
@@ -315,6 +354,13 @@ impl Geometry {
         pass.set_pipeline(pipeline);
         pass.set_bind_group(1, &groups[0], &[]);
         pass.dispatch_workgroups_indirect(&self.arguments, offset);
+    }
+
+    /// Stage 0: what is held.
+    pub fn place(&self, pass: &mut wgpu::ComputePass) {
+        if let Some(held) = &self.lists.held {
+            self.placing.run(pass, held);
+        }
     }
 
     /// Stage 1: model vertices.
@@ -420,6 +466,11 @@ impl Geometry {
     /// Seen vertices: first those of the models, object by object and order by order, then those of the mesh stage.
     pub fn seen(&self) -> &wgpu::Buffer {
         &self.seen.buffer
+    }
+
+    /// The table of instances, for tests that read it.
+    pub fn instances(&self) -> &wgpu::Texture {
+        self.instances.texture()
     }
 
     /// Indirect arguments, laid out as `types::ARGUMENTS_*` say.

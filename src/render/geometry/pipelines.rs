@@ -32,19 +32,20 @@ pub(super) struct GeometryPipelines {
 #[derive(Clone, Debug)]
 pub(super) struct PipelineInputs {
     pub device: wgpu::Device,
-    /// Layouts of groups 0 to 2.
+    /// Layouts of groups 0 to 2; group 1 is the stages' own.
     pub frame: wgpu::BindGroupLayout,
     pub geometry: wgpu::BindGroupLayout,
     pub arguments: wgpu::BindGroupLayout,
     pub worldlines: Worldlines,
 }
 
-impl PipelineInputs {
-    fn pipelines(&self, (method, inside): Side) -> GeometryPipelines {
-        let device = &self.device;
-        let groups = [Some(&self.frame), Some(&self.geometry)];
-        let with_arguments = [Some(&self.frame), Some(&self.geometry), Some(&self.arguments)];
-        let module = |label, pass: Pass| module_of(device, label, pass.module_along(self.worldlines, method, inside));
+impl GeometryPipelines {
+    /// Compiles them.
+    pub fn new(inputs: &PipelineInputs, (method, inside): Side) -> GeometryPipelines {
+        let device = &inputs.device;
+        let groups = [Some(&inputs.frame), Some(&inputs.geometry)];
+        let with_arguments = [Some(&inputs.frame), Some(&inputs.geometry), Some(&inputs.arguments)];
+        let module = |label, pass: Pass| module_of(device, label, pass.module_along(inputs.worldlines, method, inside));
         let stage = |label, pass| compute_in(device, label, &module(label, pass), "main", &groups);
         let arguments = || {
             let arguments = module("arguments", Pass::Arguments);
@@ -76,27 +77,38 @@ impl PipelineInputs {
     }
 }
 
-/// All that have been compiled.
+/// All pipelines of a kind that have been compiled.
 #[derive(Debug)]
-pub(super) struct PipelineCache {
+pub(super) struct PipelineCache<P> {
     inputs: PipelineInputs,
-    now: Arc<GeometryPipelines>,
+    compile: fn(&PipelineInputs, Side) -> P,
+    now: Arc<P>,
     side: Side,
-    kept: Vec<(Side, Arc<GeometryPipelines>)>,
+    kept: Vec<(Side, Arc<P>)>,
     /// What is being compiled in the background.
-    ahead: Option<(Side, JoinHandle<GeometryPipelines>)>,
+    ahead: Option<(Side, JoinHandle<P>)>,
 }
 
-impl PipelineCache {
+impl<P: Send + 'static> PipelineCache<P> {
     /// With the pipelines of one side.
-    pub fn new(inputs: PipelineInputs, side: Side) -> PipelineCache {
-        let now = Arc::new(inputs.pipelines(side));
-        PipelineCache { inputs, now: now.clone(), side, kept: vec![(side, now)], ahead: None }
+    pub fn new(inputs: PipelineInputs, compile: fn(&PipelineInputs, Side) -> P, side: Side) -> PipelineCache<P> {
+        let now = Arc::new(compile(&inputs, side));
+        PipelineCache { inputs, compile, now: now.clone(), side, kept: vec![(side, now)], ahead: None }
     }
 
     /// The pipelines in use.
-    pub fn now(&self) -> &GeometryPipelines {
+    pub fn now(&self) -> &P {
         &self.now
+    }
+
+    /// What they are compiled with.
+    pub fn inputs(&self) -> &PipelineInputs {
+        &self.inputs
+    }
+
+    /// The side that they are for.
+    pub fn side(&self) -> Side {
+        self.side
     }
 
     /// Uses the pipelines of this side from now on.
@@ -108,7 +120,7 @@ impl PipelineCache {
         let kept = self.kept.iter().find(|kept| kept.0 == side).map(|kept| kept.1.clone());
         self.now = kept.unwrap_or_else(|| {
             let ahead = self.ahead.take_if(|ahead| ahead.0 == side).and_then(|(_, thread)| thread.join().ok());
-            let pipelines = Arc::new(ahead.unwrap_or_else(|| self.inputs.pipelines(side)));
+            let pipelines = Arc::new(ahead.unwrap_or_else(|| (self.compile)(&self.inputs, side)));
             self.kept.push((side, pipelines.clone()));
             pipelines
         });
@@ -123,12 +135,12 @@ impl PipelineCache {
             self.kept.push((other, Arc::new(pipelines)));
         }
         if self.ahead.is_none() && self.kept.iter().all(|kept| kept.0 != side) {
-            let inputs = self.inputs.clone();
+            let (inputs, compile) = (self.inputs.clone(), self.compile);
             let compile = move || {
                 // The threads that frames are made on are left alone.
                 match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
-                    Ok(pool) => pool.install(|| inputs.pipelines(side)),
-                    Err(_) => inputs.pipelines(side),
+                    Ok(pool) => pool.install(|| compile(&inputs, side)),
+                    Err(_) => compile(&inputs, side),
                 }
             };
             // Without a thread it is compiled when it is needed.
@@ -138,7 +150,7 @@ impl PipelineCache {
     }
 }
 
-impl Drop for PipelineCache {
+impl<P> Drop for PipelineCache<P> {
     fn drop(&mut self) {
         // The device must stay alive while a driver compiles.
         if let Some((_, thread)) = self.ahead.take() {

@@ -60,6 +60,10 @@ pub enum Slot {
     Numbers,
     /// The same of words of 32 bits.
     Words,
+    /// A 2-D texture of four words a texel that is written.
+    WriteWords,
+    /// The same of two.
+    WritePairs,
     /// A 2-D texture of depths, fetched or gathered.
     Depth,
     /// An array of them.
@@ -82,6 +86,11 @@ pub fn layout(device: &wgpu::Device, label: &str, stages: ShaderStages, slots: &
                 view_dimension,
                 multisampled: false,
             };
+            let written = |format| BindingType::StorageTexture {
+                access: wgpu::StorageTextureAccess::WriteOnly,
+                format,
+                view_dimension: TextureViewDimension::D2,
+            };
             // A vertex stage may not see what it could write.
             let visibility = if matches!(slot, Slot::Write) { stages & !ShaderStages::VERTEX } else { stages };
             BindGroupLayoutEntry {
@@ -98,6 +107,8 @@ pub fn layout(device: &wgpu::Device, label: &str, stages: ShaderStages, slots: &
                         view_dimension: TextureViewDimension::D2,
                         multisampled: false,
                     },
+                    Slot::WriteWords => written(wgpu::TextureFormat::Rgba32Uint),
+                    Slot::WritePairs => written(wgpu::TextureFormat::Rg32Uint),
                     Slot::Depth => BindingType::Texture {
                         sample_type: TextureSampleType::Depth,
                         view_dimension: TextureViewDimension::D2,
@@ -185,6 +196,9 @@ impl Growing {
 /// Texels in a row of a table that is kept in a texture; `TABLE_ROW` of WGSL.
 pub const TABLE_ROW: usize = 1024;
 
+/// Rows of the highest texture that WebGPU guarantees.
+pub const TABLE_ROWS: usize = 8192;
+
 /// A table for shaders to fetch from, kept in a texture of rows of [`TABLE_ROW`] texels of four numbers or words: a texel is fetched at
 /// once, where a software driver reads a storage buffer number by number and lane by lane. It grows when more is written to it than it
 /// holds.
@@ -195,11 +209,21 @@ pub struct TableTexture {
     view: wgpu::TextureView,
 }
 
+/// How tables are used.
+const TABLE_USAGE: wgpu::TextureUsages = wgpu::TextureUsages::TEXTURE_BINDING.union(wgpu::TextureUsages::COPY_DST);
+
 impl TableTexture {
     /// An empty one, of f32 or, for a [`Slot::Words`], of u32.
     pub fn new(device: &wgpu::Device, label: &'static str, words: bool) -> Self {
         let format = if words { wgpu::TextureFormat::Rgba32Uint } else { wgpu::TextureFormat::Rgba32Float };
-        let (texture, view) = table_texture(device, label, format, 1);
+        let (texture, view) = table_texture(device, label, format, TABLE_USAGE, 1);
+        TableTexture { label, texture, view }
+    }
+
+    /// An empty one of words, of four or two a texel, that shaders may write as well ([`Slot::WriteWords`], [`Slot::WritePairs`]).
+    pub fn written(device: &wgpu::Device, label: &'static str, format: wgpu::TextureFormat) -> Self {
+        let usage = TABLE_USAGE | wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC;
+        let (texture, view) = table_texture(device, label, format, usage, 1);
         TableTexture { label, texture, view }
     }
 
@@ -210,24 +234,30 @@ impl TableTexture {
         table
     }
 
-    /// Writes the data, whole texels of 16 bytes, growing if it must. True if the texture was replaced, so that bind groups must be made
-    /// anew.
+    /// Holds at least `count` texels afterwards. True if the texture was replaced, so that bind groups must be made anew.
+    pub fn reserve(&mut self, device: &wgpu::Device, count: usize) -> bool {
+        let replaced = count > (self.texture.width() * self.texture.height()) as usize;
+        if replaced {
+            (self.texture, self.view) = table_texture(device, self.label, self.texture.format(), self.texture.usage(), count);
+        }
+        replaced
+    }
+
+    /// Writes the data, whole texels, growing if it must. True if the texture was replaced, so that bind groups must be made anew.
     pub fn write<T: bytemuck::Pod>(&mut self, gpu: &crate::render::Gpu, data: &[T]) -> bool {
         let bytes: &[u8] = bytemuck::cast_slice(data);
-        let replaced = bytes.len() > TEXEL * (self.texture.width() * self.texture.height()) as usize;
-        if replaced {
-            (self.texture, self.view) = table_texture(&gpu.device, self.label, self.texture.format(), bytes.len() / TEXEL);
-        }
-        let row = TEXEL * self.texture.width() as usize;
+        let texel = self.texel();
+        let replaced = self.reserve(&gpu.device, bytes.len() / texel);
+        let row = texel * self.texture.width() as usize;
         // Whole rows, then what is left of one.
         let (rows, rest) = bytes.split_at(bytes.len() / row * row);
         for (part, y, height) in [(rows, 0, rows.len() / row), (rest, rows.len() / row, 1)] {
             if !part.is_empty() {
-                let width = part.len() / TEXEL / height;
+                let width = part.len() / texel / height;
                 gpu.queue.write_texture(
                     wgpu::TexelCopyTextureInfo { origin: wgpu::Origin3d { x: 0, y: y as u32, z: 0 }, ..self.texture.as_image_copy() },
                     part,
-                    wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some((TEXEL * width) as u32), rows_per_image: None },
+                    wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some((texel * width) as u32), rows_per_image: None },
                     wgpu::Extent3d { width: width as u32, height: height as u32, depth_or_array_layers: 1 },
                 );
             }
@@ -235,19 +265,32 @@ impl TableTexture {
         replaced
     }
 
-    /// For a [`Slot::Numbers`] or a [`Slot::Words`].
+    /// Bytes of a texel.
+    fn texel(&self) -> usize {
+        self.texture.format().block_copy_size(None).unwrap_or(16) as usize
+    }
+
+    /// For a [`Slot::Numbers`], a [`Slot::Words`] or one that is written.
     pub fn binding(&self) -> BindingResource<'_> {
         BindingResource::TextureView(&self.view)
     }
+
+    /// The texture, for tests that read it.
+    pub fn texture(&self) -> &wgpu::Texture {
+        &self.texture
+    }
 }
 
-/// Bytes of a texel.
-const TEXEL: usize = 16;
-
 /// A texture for a table of `count` texels: as wide as they are, or of so many rows.
-fn table_texture(device: &wgpu::Device, label: &str, format: wgpu::TextureFormat, count: usize) -> (wgpu::Texture, wgpu::TextureView) {
+fn table_texture(
+    device: &wgpu::Device,
+    label: &str,
+    format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
+    count: usize,
+) -> (wgpu::Texture, wgpu::TextureView) {
     let size = [count.clamp(1, TABLE_ROW) as u32, count.div_ceil(TABLE_ROW).max(1) as u32];
-    let texture = new_texture(device, label, size, [1, 1], format, wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST);
+    let texture = new_texture(device, label, size, [1, 1], format, usage);
     let view = texture.create_view(&Default::default());
     (texture, view)
 }

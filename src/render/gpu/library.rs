@@ -131,6 +131,8 @@ fn modules(worldlines: Worldlines, method: Method) -> Vec<(&'static str, File)> 
         own(file!("instances/instance.wgsl")),
         own(file!("instances/local_motion.wgsl")),
         ("lensrunner::chosen::worldlines", worldlines),
+        own(file!("instances/held.wgsl")),
+        own(file!("instances/view.wgsl")),
         own(file!("geometry/clip.wgsl")),
         own(file!("geometry/project.wgsl")),
         own(file!("geometry/bindings.wgsl")),

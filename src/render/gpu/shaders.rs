@@ -36,6 +36,8 @@ macro_rules! passes {
 }
 
 passes! {
+    /// Places what is held.
+    Place: "geometry/place.wgsl",
     /// Projects the model vertices.
     Vertices: "geometry/vertices.wgsl",
     /// Measures the model edges.
@@ -159,7 +161,7 @@ impl Pass {
 
     /// Whether the pass is ever run for a camera inside the horizon that looks at what is inside.
     fn may_be_inside(self) -> bool {
-        matches!(self, Pass::Vertices | Pass::Edges | Pass::Triangles | Pass::Refine | Pass::Arguments | Pass::Mesh)
+        matches!(self, Pass::Place | Pass::Vertices | Pass::Edges | Pass::Triangles | Pass::Refine | Pass::Arguments | Pass::Mesh)
     }
 
     /// Whether instances, or the numbers of the disk, are in the group of images.

@@ -175,6 +175,62 @@ pub mod placed {
     pub const OWN: u32 = 32;
 }
 
+/// A body that is held in place, uploaded once; `HeldBody` in WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/instances/held.wgsl")]
+pub struct HeldBody {
+    pub position: [f32; 3],
+    pub reach: f32,
+    pub position_rest: [f32; 3],
+    pub scale: f32,
+    pub attitude: [f32; 4],
+    pub light: [[f32; 4]; 3],
+    pub first_model: u32,
+    pub model_count: u32,
+    pub object: u32,
+    pub unused: u32,
+}
+
+/// A model of held bodies; `HeldModel` in WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/instances/held.wgsl")]
+pub struct HeldModel {
+    pub first_vertex: u32,
+    pub vertex_count: u32,
+    pub first_edge: u32,
+    pub edge_count: u32,
+    pub first_triangle: u32,
+    pub triangle_count: u32,
+    pub first_material: u32,
+    pub below: f32,
+}
+
+/// What of a frame decides how held bodies are placed; `HeldFrame` in WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/instances/held.wgsl")]
+pub struct HeldFrame {
+    pub camera: [f32; 3],
+    pub bodies: u32,
+    pub camera_rest: [f32; 3],
+    pub images: u32,
+    pub orders: u32,
+    pub flags: u32,
+    pub bounded: u32,
+    pub thin_below: f32,
+    pub coarse_below: f32,
+    pub least_width: f32,
+    pub allowed: f32,
+    pub strictness: f32,
+    pub has_thin: u32,
+    pub images_end: u32,
+    pub vertices_end: [u32; 2],
+    pub states_end: [u32; 2],
+    pub unused: [u32; 2],
+}
+
 /// `ModelVertex` in WGSL.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
@@ -198,6 +254,9 @@ pub struct ModelTriangle {
     pub edges: [u32; 3],
     pub seen_from: u32,
 }
+
+/// Threads of a workgroup of the stages, and of a chunk; `@workgroup_size` in WGSL.
+pub const CHUNK: u32 = 64;
 
 /// `Chunk` in WGSL.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -291,8 +350,12 @@ pub struct Counters {
     pub calmed: u32,
     pub passes: u32,
     pub is_last: u32,
-    pub reduced: u32,
+    pub simpler: u32,
     pub left_out: u32,
+    pub images: u32,
+    pub held_vertices: [u32; 2],
+    pub held_states: [u32; 2],
+    pub chunks: [u32; 3],
 }
 
 impl Counters {
@@ -311,8 +374,8 @@ impl Counters {
         if self.calmed > 0 {
             parts.push(format!("{} images show a body that turned or sprang faster than any can, slower", self.calmed));
         }
-        if self.reduced > 0 {
-            parts.push(format!("{} small images are drawn by coarse models, for there is no room for finer ones", self.reduced));
+        if self.simpler > 0 {
+            parts.push(format!("{} small images are drawn by coarse models, for there is no room for finer ones", self.simpler));
         }
         if self.left_out > 0 {
             parts.push(format!("{} small images are left out, for there is no room for their models", self.left_out));
@@ -344,7 +407,7 @@ pub const WORK_BYTES: u64 = 112;
 /// Bytes of `ThinVertex` in WGSL.
 pub const THIN_BYTES: u64 = 32;
 /// Bytes of `Arguments` in WGSL, and where each part of it lies.
-pub const ARGUMENTS_BYTES: u64 = 112;
+pub const ARGUMENTS_BYTES: u64 = 160;
 /// Offset of the dispatch of the refine stage.
 pub const ARGUMENTS_REFINE: u64 = 0;
 /// Offset of the dispatch over the work items of the mesh stage.
@@ -357,6 +420,8 @@ pub const ARGUMENTS_OPAQUE: u64 = 32;
 pub const ARGUMENTS_THIN: u64 = 64;
 /// Offset of the dispatch over thin triangles.
 pub const ARGUMENTS_THIN_LISTS: u64 = 96;
+/// Offsets of the dispatches over the chunks of vertices, edges and triangles.
+pub const ARGUMENTS_CHUNKS: [u64; 3] = [112, 128, 144];
 /// Bytes of `SkyCorner` in WGSL.
 pub const SKY_CORNER_BYTES: u64 = 48;
 

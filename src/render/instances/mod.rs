@@ -2,6 +2,7 @@
 
 mod bounds;
 mod emission;
+pub mod held;
 pub mod local_motion;
 mod view;
 pub mod visibility;
@@ -183,9 +184,12 @@ fn set_strictness(instance: &mut Instance, view: &InstanceView, width: f64, orde
         instance.flags |= if width < NARROW_RING_BELOW && order.number() > 1 { NARROW_RING } else { 0 };
         instance.strictness = (NARROW_IMAGE_BELOW / width).clamp(1.0, MOST_NARROW_STRICTNESS) as f32;
     }
-    if NEAR_PHOTON_SPHERE.contains(&view.camera.radius()) {
-        instance.strictness *= PHOTON_SPHERE_STRICTNESS;
-    }
+    instance.strictness *= photon_sphere_strictness(view.camera);
+}
+
+/// Factor on the strictness, by where the camera is.
+fn photon_sphere_strictness(camera: &Observer) -> f32 {
+    if NEAR_PHOTON_SPHERE.contains(&camera.radius()) { PHOTON_SPHERE_STRICTNESS } else { 1.0 }
 }
 
 /// How often light of an image order crosses the plane z = 0 on its way from `height` (z of its source) to the camera at `camera_height`.

@@ -37,6 +37,7 @@ use crate::render::gpu::readback::{self, DeferredCopy, PictureError};
 use crate::render::gpu::targets::Targets;
 use crate::render::gpu::timing::Timing;
 use crate::render::gpu::types::{self, Counters, Star};
+use crate::render::instances::held::HeldBodies;
 use crate::render::models::{ModelRange, ModelSet, Models};
 use crate::render::post_process::upscale::Upscale;
 use crate::render::post_process::{Finish, PostProcess};
@@ -61,6 +62,8 @@ pub struct Surroundings {
 pub struct SceneUpload {
     /// All models, where their [`ModelRange`]s say.
     pub models: ModelSet,
+    /// What is held in place.
+    pub held: HeldBodies,
     /// The disk, if the scene has one.
     pub disk: Option<DrawnDisk>,
     /// Frames of [`REHEARSED`] pixels to draw unseen before the first that is seen, so that all is compiled by then; with none the scene is
@@ -213,10 +216,11 @@ impl Renderer {
         self.models.add(&self.gpu, model)
     }
 
-    /// Draws the models and the disk of this scene from now on, and nothing of another.
+    /// Draws the models, what is held and the disk of this scene from now on, and nothing of another.
     pub fn upload(&mut self, scene: &SceneUpload) {
         self.geometry.models_changed();
         self.models.upload(&self.gpu, scene.models.clone());
+        self.geometry.set_held(&self.gpu, &scene.held);
         self.set_disk(scene.disk.clone());
     }
 

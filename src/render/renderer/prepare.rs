@@ -33,7 +33,8 @@ impl Renderer {
         }
         let begin = self.timing.worked("view of the disk", begin);
         let most = self.gpu.device.limits().max_storage_buffer_binding_size;
-        let bodies = BodyLists::new(&input.placed, input.settings.vertex_budget, most);
+        let held = input.held.and_then(|flags| self.geometry.held_images(camera, &input.settings, flags));
+        let bodies = BodyLists::new(&input.placed, held, input.settings.vertex_budget, most);
         let mut uniform = uniform(input, size, bodies.capacity);
         if let Some(disk) = self.disk() {
             uniform.exposure_key = disk.disk().config.exposure_key as f32;
@@ -86,7 +87,7 @@ impl Renderer {
         let begin = self.timing.worked("lists of stars", begin);
         self.background.prepare(&self.gpu, size);
         self.aurora.prepare(&self.gpu, input.aurora.as_ref(), &self.targets);
-        self.finish.smooth = input.settings.smooth && !input.placed.is_empty();
+        self.finish.smooth = input.settings.smooth && input.has_bodies();
         self.finish.blooms = input.settings.bloom > 0.0;
         self.finish.resolution = input.settings.resolution;
         self.timing.worked("rest of the uploads", begin);

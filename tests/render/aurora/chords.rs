@@ -41,7 +41,7 @@ struct End {
 
 /// Of each image, part, pole and kind the ends of its chords from above, as the shader has them.
 fn ends_of(renderer: &mut Renderer, camera: Observer, frame: &AuroraFrame, settings: &Settings) -> Vec<Vec<End>> {
-    let input = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: Some(frame.clone()), settings: *settings };
+    let input = FrameInput { camera, time: 0.0, placed: Vec::new(), held: None, aurora: Some(frame.clone()), settings: *settings };
     renderer.picture(&input, false).unwrap();
     let bytes = readback::buffer(&GPU, renderer.aurora().references()).unwrap();
     // `Reference` of streaks.wgsl. A buffer that grew has room to spare.
@@ -127,7 +127,7 @@ fn hold(renderer: &mut Renderer, planet: &Planet, camera: Observer, config: &Gam
         let drawn = |ends: &[End], height: f64| between(ends, (kind, falls.ends[kind]), height, |end| end.seen);
         let exact = |height: f64| {
             let body = between(fine, (kind, falls.ends[kind]), height, |end| Some(end.body))?;
-            by_exact_ray(&camera, planet, &history, body, Order::new(image as u8).unwrap())
+            by_exact_ray(&camera, planet, history, body, Order::new(image as u8).unwrap())
         };
         let (got, finer) = (places(&|height| drawn(own, height)), places(&|height| drawn(fine, height)));
         // Straight light is drawn as it is with any number of chords.

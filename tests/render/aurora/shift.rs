@@ -40,7 +40,7 @@ fn lines_shift_with_the_planets_rotation() {
     for (camera, allowed, differ) in [(far, 0.01, [1.1, 1.3]), (stage.camera(0.0, &[]), 0.01, [1.0, 1.03])] {
         let slice = lensrunner::lensing::Slice::new(renderer.table(), camera.radius());
         let view = InstanceView { camera: &camera, slice: &slice, pixel: 1e-3, aspect: Some(144.0 / 256.0), settings: &settings(&config) };
-        let [least, greatest] = compare(&view, &planet, &history, allowed);
+        let [least, greatest] = compare(&view, &planet, history, allowed);
         assert!((differ[0]..differ[1]).contains(&(greatest / least)), "ratios from {least} to {greatest}");
     }
 }

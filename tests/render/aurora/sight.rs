@@ -138,7 +138,14 @@ fn what_leaves_strokes_is_never_left_out() {
             let (all, kept) = (frame(None), frame(Some(f64::from(SIZE[1]) / f64::from(SIZE[0]))));
             let Some(all) = all else { continue };
             for (image, instance) in all.instances.iter().enumerate() {
-                let alone = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: Some(only(&all, image)), settings: all_settings };
+                let alone = FrameInput {
+                    camera,
+                    time: 0.0,
+                    placed: Vec::new(),
+                    held: None,
+                    aurora: Some(only(&all, image)),
+                    settings: all_settings,
+                };
                 renderer.picture(&alone, false).unwrap();
                 let strokes: u32 = renderer.aurora_strokes().unwrap().unwrap().iter().sum();
                 let is_kept = kept.as_ref().is_some_and(|kept| kept.instances.iter().any(|other| other.order == instance.order));

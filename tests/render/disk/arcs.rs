@@ -28,7 +28,7 @@ struct Drawn {
 
 fn drawn(renderer: &mut Renderer, disk: &DrawnDisk, camera: Observer) -> Drawn {
     renderer.set_disk(Some(disk.clone()));
-    let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
+    let input = FrameInput { camera, time: 100.0, placed: Vec::new(), held: None, aurora: None, settings: settings() };
     renderer.picture(&input, false).unwrap();
     let slice = lensrunner::lensing::Slice::new(renderer.table(), camera.radius());
     let view = lensrunner::render::disk::view::DiskView::new(disk, &input, &slice, renderer.size()[0]);

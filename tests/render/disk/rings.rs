@@ -173,7 +173,7 @@ fn rings_from_near_are_as_true_as_they_are_held_to_be() {
     let table = shared_table();
     for camera in close_cameras() {
         let slice = Slice::new(&table, camera.radius());
-        let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
+        let input = FrameInput { camera, time: 100.0, placed: Vec::new(), held: None, aurora: None, settings: settings() };
         let view = DiskView::new(&disk, &input, &slice, WIDTH);
         let measure = Measure::new(&disk, Look::new(&camera, &slice, 1, WIDTH, true), true);
         let (mut worst, mut rings) = ([0.0f64; 4], 0);
@@ -218,7 +218,7 @@ fn worse_than_new(times: f64) -> [f64; 4] {
     let mut worst = [0.0f64; 4];
     for start in cameras {
         let follow = |view: &mut DiskView, camera: Observer| {
-            let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
+            let input = FrameInput { camera, time: 100.0, placed: Vec::new(), held: None, aurora: None, settings: settings() };
             view.follow(&disk, &input, &Slice::new(&table, camera.radius()), WIDTH);
         };
         let mut view = DiskView::of(&disk);
@@ -278,7 +278,7 @@ fn pictures_do_not_depend_on_those_before() {
     renderer.set_disk(Some(disk.clone()));
     let picture = |renderer: &mut Renderer, degrees: f64| {
         let camera = camera(22.0, degrees, 60f64.to_radians());
-        let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
+        let input = FrameInput { camera, time: 100.0, placed: Vec::new(), held: None, aurora: None, settings: settings() };
         renderer.picture(&input, false).unwrap().linear
     };
     picture(&mut renderer, 80.0);
@@ -302,6 +302,7 @@ fn every_pixel_of_a_wide_disk_is_a_number() {
                 camera: camera(27.0, degrees, 60f64.to_radians()),
                 time: 100.0,
                 placed: Vec::new(),
+                held: None,
                 aurora: None,
                 settings: settings(),
             };
@@ -322,7 +323,7 @@ fn no_edge_is_seen_where_the_azimuth_changes_its_sign() {
     let mut renderer = renderer(size);
     renderer.set_disk(Some(DrawnDisk::new(config.disk.clone(), &config)));
     let camera = static_camera(DVec3::new(0.0, -8.0, -0.05), DVec3::new(0.5, 1.0, -0.1), DVec3::Z, 90f64.to_radians());
-    let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
+    let input = FrameInput { camera, time: 100.0, placed: Vec::new(), held: None, aurora: None, settings: settings() };
     let linear = renderer.picture(&input, false).unwrap().linear;
     let light = |x: u32, y: u32| f64::from(linear[(y * size[0] + x) as usize][1]);
     // The way to the hole is seen 26.6° left of the middle: tan of that, of 160 pixels. Light is smooth there: a step is no larger than
@@ -352,6 +353,7 @@ fn a_disk_with_less_in_it_is_as_bright() {
             camera: camera(l, degrees, 60f64.to_radians()),
             time: 100.0,
             placed: Vec::new(),
+            held: None,
             aurora: None,
             settings: Settings { ring_error, gas_looks, ..settings() },
         };

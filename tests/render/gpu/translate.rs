@@ -5,12 +5,12 @@ use lensrunner::render::gpu::library::Worldlines;
 use lensrunner::render::gpu::shaders::Pass;
 use naga::back::{hlsl, msl, spv};
 use naga::valid::{Capabilities, GlobalUse, ModuleInfo, ValidationFlags, Validator};
-use naga::{AddressSpace, ImageClass, Module, TypeInner};
+use naga::{AddressSpace, ImageClass, Module, StorageAccess, StorageFormat, TypeInner};
 
 /// Each pass as it is shipped, and the stages of geometry in all their variants.
 fn shipped() -> Vec<(String, Module)> {
     let mut modules: Vec<_> = Pass::ALL.map(|pass| (format!("{pass:?}"), pass.module())).into();
-    let stages = [Pass::Vertices, Pass::Edges, Pass::Triangles, Pass::Refine, Pass::Arguments, Pass::Mesh];
+    let stages = [Pass::Place, Pass::Vertices, Pass::Edges, Pass::Triangles, Pass::Refine, Pass::Arguments, Pass::Mesh];
     for pass in stages {
         let outside = pass.module_by(Method::default(), false);
         modules.push((format!("{pass:?} outside of the horizon"), outside));
@@ -18,13 +18,14 @@ fn shipped() -> Vec<(String, Module)> {
     }
     for method in METHODS {
         modules.push((format!("vertices by {method:?}"), Pass::Vertices.module_by(method, true)));
+        modules.push((format!("place by {method:?}"), Pass::Place.module_by(method, true)));
     }
     modules
 }
 
-/// What a stage binds, in the terms of WebGPU's limits: storage buffers, uniform buffers, textures, samplers.
-fn bound(module: &Module, info: &ModuleInfo, entry: usize) -> [u32; 4] {
-    let mut counts = [0; 4];
+/// What a stage binds, in the terms of WebGPU's limits: storage buffers, uniform buffers, textures, samplers, textures that are written.
+fn bound(module: &Module, info: &ModuleInfo, entry: usize) -> [u32; 5] {
+    let mut counts = [0; 5];
     for (handle, global) in module.global_variables.iter() {
         if info.get_entry_point(entry)[handle] == GlobalUse::empty() {
             continue;
@@ -32,10 +33,13 @@ fn bound(module: &Module, info: &ModuleInfo, entry: usize) -> [u32; 4] {
         let kind = match (global.space, &module.types[global.ty].inner) {
             (AddressSpace::Storage { .. }, _) => 0,
             (AddressSpace::Uniform, _) => 1,
-            (_, TypeInner::Image { class, .. }) => {
-                assert!(!matches!(class, ImageClass::Storage { .. }), "a storage texture: its format must be allowed");
-                2
+            (_, TypeInner::Image { class: ImageClass::Storage { format, access }, .. }) => {
+                let may_be_written =
+                    matches!(format, StorageFormat::Rgba32Uint | StorageFormat::Rg32Uint) && *access == StorageAccess::STORE;
+                assert!(may_be_written, "{format:?} is not known to be allowed");
+                4
             }
+            (_, TypeInner::Image { .. }) => 2,
             (_, TypeInner::Sampler { .. }) => 3,
             _ => continue,
         };
@@ -61,6 +65,7 @@ fn check_limits(name: &str, module: &Module, info: &ModuleInfo) {
         limits.max_uniform_buffers_per_shader_stage,
         limits.max_sampled_textures_per_shader_stage,
         limits.max_samplers_per_shader_stage,
+        limits.max_storage_textures_per_shader_stage,
     ];
     for (k, entry) in module.entry_points.iter().enumerate() {
         let bound = bound(module, info, k);
@@ -110,6 +115,6 @@ fn a_ninth_storage_buffer_is_refused() {
     let sum: String = (1..9).map(|k| format!("b0[0] += b{k}[0];\n")).collect();
     let module = naga::front::wgsl::parse_str(&format!("{buffers} @compute @workgroup_size(64) fn main() {{ {sum} }}")).unwrap();
     let info = Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module).unwrap();
-    assert_eq!(bound(&module, &info, 0), [9, 0, 0, 0]);
+    assert_eq!(bound(&module, &info, 0), [9, 0, 0, 0, 0]);
     assert!(std::panic::catch_unwind(|| check_limits("nine", &module, &info)).is_err());
 }

@@ -19,8 +19,8 @@ use lensrunner::render::gpu::library::{Library, Values, Worldlines};
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::gpu::targets::TILE;
 use lensrunner::render::gpu::types::{
-    self, Adaptation, Cap, Capacity, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, STAR_ORDERS,
-    SeenVertex, Star, StarCluster,
+    self, Adaptation, Cap, Capacity, CellDraws, Chunk, Counters, Frame, HeldBody, HeldFrame, HeldModel, Instance, Material, ModelTriangle,
+    ModelVertex, STAR_ORDERS, SeenVertex, Star, StarCluster,
 };
 use lensrunner::render::gpu::types::{flags, placed};
 use lensrunner::render::models::ALONE;
@@ -57,7 +57,6 @@ fn composed(text: &str) -> Module {
 fn with_struct(path: &str) -> Module {
     match path {
         "sky::cells::CellDraws" => Pass::SkyCells.module(),
-        "geometry::arguments::Arguments" => Pass::Arguments.module(),
         "disk::arcs::arguments::DiskArguments" => Pass::DiskArguments.module(),
         "disk::polygons::Turning" => Pass::DiskPolygons.module(),
         "disk::sprites::Sprite" | "disk::sprites::SpriteImage" => Pass::DiskSprites.module(),
@@ -97,7 +96,21 @@ fn structs_have_one_layout_in_both_languages() {
         (
             "geometry::bindings::Counters",
             fields!(Counters: vertices, indices, work, thin, pieces, turn, coarse, cut, caught, model_vertices, lost, outside, split,
-            calmed, passes, is_last, reduced, left_out),
+            calmed, passes, is_last, simpler, left_out, images, held_vertices, held_states, chunks),
+        ),
+        (
+            "instances::held::HeldBody",
+            fields!(HeldBody: position, reach, position_rest, scale, attitude, light ["light_red", "light_green", "light_blue"], first_model,
+            model_count, object, unused),
+        ),
+        (
+            "instances::held::HeldModel",
+            fields!(HeldModel: first_vertex, vertex_count, first_edge, edge_count, first_triangle, triangle_count, first_material, below),
+        ),
+        (
+            "instances::held::HeldFrame",
+            fields!(HeldFrame: camera, bodies, camera_rest, images, orders, flags, bounded, thin_below, coarse_below,
+            least_width, allowed, strictness, has_thin, images_end, vertices_end, states_end, unused),
         ),
         ("gpu::types::Material", fields!(Material: base, alpha, emissive, roughness, metallic, layer, temperature, nozzle)),
         (
@@ -151,7 +164,7 @@ fn structs_that_only_shaders_know_have_the_sizes_that_rust_reserves() {
         ("gpu::types::Piece", types::PIECE_BYTES),
         ("gpu::types::WorkItem", types::WORK_BYTES),
         ("gpu::types::ThinVertex", types::THIN_BYTES),
-        ("geometry::arguments::Arguments", types::ARGUMENTS_BYTES),
+        ("geometry::bindings::Arguments", types::ARGUMENTS_BYTES),
         ("gpu::types::SkyCorner", types::SKY_CORNER_BYTES),
         ("disk::arcs::arguments::DiskArguments", disk::ARGUMENTS_BYTES),
         ("disk::types::Segments", disk::SEGMENTS_BYTES),

@@ -27,7 +27,8 @@ fn ball(bench: &Bench, position: DVec3, settings: &Settings) -> Vec<Placed> {
 
 /// How many pixels show the ball, and how many of its triangles were left out.
 fn drawn(bench: &mut Bench, placed: Vec<Placed>, settings: Settings) -> (usize, u32, ReadbackPicture) {
-    let picture = bench.renderer.picture(&FrameInput { camera: camera(), time: 0.0, placed, aurora: None, settings }, true).unwrap();
+    let picture =
+        bench.renderer.picture(&FrameInput { camera: camera(), time: 0.0, placed, held: None, aurora: None, settings }, true).unwrap();
     let counters = bench.renderer.counters().unwrap();
     assert_eq!(counters.complaint().is_some_and(|text| text.contains("outside")), counters.outside > 0);
     (picture.layers.iter().filter(|texel| texel[0] == 1.0).count(), counters.outside, picture)

@@ -52,7 +52,7 @@ impl Yard {
         let (model, coarse) = (self.ship, self.ship);
         let object = DrawnObject { model, coarse, stand_ins: &[], motion, reach: self.reach, scale: LENGTH, id: 1, light };
         let placed = instances_of(&view, time, &object, settings.orders);
-        let picture = self.renderer.picture(&FrameInput { camera, time, placed, aurora: None, settings }, false).unwrap();
+        let picture = self.renderer.picture(&FrameInput { camera, time, placed, held: None, aurora: None, settings }, false).unwrap();
         (self.renderer.counters().unwrap(), picture.linear.iter().flatten().all(|x| x.is_finite()))
     }
 }

@@ -1,5 +1,6 @@
 //! Tests of `src/render/instances/`.
 
 mod bounds;
+mod held;
 mod hostile;
 mod local_motion;

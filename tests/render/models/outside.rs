@@ -79,9 +79,7 @@ fn nothing_that_is_seen_is_left_out() {
         let settings = Settings { stars: false, milky_way: false, bloom: 0.0, min_width: 0.0, ..Settings::finest() };
         let mut seen = |both: bool| {
             let mut frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &settings);
-            for placed in &mut frame.placed {
-                placed.instance.flags |= if both { TWO_SIDED } else { 0 };
-            }
+            frame.held = Some(if both { TWO_SIDED } else { 0 });
             let picture = renderer.picture(&frame, true).unwrap();
             let counters = readback::buffer(&GPU, renderer.geometry().counters()).unwrap();
             let indices = bytemuck::pod_collect_to_vec::<u8, u32>(&counters)[1];
