@@ -13,7 +13,7 @@
 #import lensrunner::instances::instance::INSTANCE_TEXELS
 #import lensrunner::instances::local_motion::turned_by
 #import lensrunner::instances::view::{
-    angle_of_sine, anywhere, extent_of, farthest_in_patch, MARGIN, may_be_seen, SCREEN_MARGIN, seen_cap, turn_of,
+    angle_of_sine, anywhere, Extent, extent_of, farthest_in_patch, MARGIN, may_be_seen, SCREEN_MARGIN, seen_cap, turn_of,
 }
 #import lensrunner::lensing::closed_form::{angle, HALF_TURN, sine_cosine}
 #import lensrunner::lensing::lookup::{OLD, YOUNG}

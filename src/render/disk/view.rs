@@ -38,7 +38,7 @@ const DETOUR: f64 = 60.0;
 
 /// How far a camera may move before order 1 is made anew, and before orders 2 and 3 are, over its distance from the gas. Then errors of
 /// rings are hardly greater than those of new ones, with twice the second too (`kept_rings_are_as_true_as_new_ones`).
-const KEPT: [f64; 2] = [0.01, 0.04];
+const KEPT: [f64; 2] = [0.01, 0.02];
 /// What a change of the camera's momentum counts beside that: light goes as an exponential of its frequency.
 const FASTER: f64 = 2.0;
 

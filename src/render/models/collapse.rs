@@ -2,7 +2,7 @@
 //! stays closed. The neighbour may move to where both stand best for their planes (Garland & Heckbert 1997).
 
 use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashMap, HashSet};
+use std::collections::{BTreeMap, BinaryHeap, HashMap, HashSet};
 
 use glam::{DMat3, DVec3, Vec3};
 
@@ -182,7 +182,8 @@ impl<'a> Collapse<'a> {
 
     /// The planes of triangles, and those that stand on borders.
     fn weigh(&mut self) {
-        let mut sides: HashMap<[u32; 2], Vec<(u32, usize)>> = HashMap::new();
+        // In their order, for sums of planes are rounded by it.
+        let mut sides: BTreeMap<[u32; 2], Vec<(u32, usize)>> = BTreeMap::new();
         for (number, (corners, _)) in (0u32..).zip(&self.triangles).filter_map(|(number, triangle)| Some((number, (*triangle)?))) {
             let [a, b, c] = corners.map(|point| self.points[point as usize]);
             let normal = (b - a).cross(c - a).normalize_or_zero();

@@ -199,7 +199,7 @@ fn of_order(view: &DiskView, order: u32) -> (Vec<Ring>, Vec<[f32; 4]>) {
     (rings, bends)
 }
 
-/// The worst errors of kept rings, over those of new ones or what is allowed: the camera goes as far as each order is kept, up and down, in
+/// The worst errors of kept rings, over those that they had when they were made, those of new ones, or what is allowed: the camera goes as far as each order is kept, up and down, in
 /// and out, and by its momentum. An image is kept `times` as long as by itself.
 fn worse_than_new(times: f64) -> [f64; 4] {
     const WIDTH: u32 = 640;
@@ -236,6 +236,7 @@ fn worse_than_new(times: f64) -> [f64; 4] {
                 let all = of_order(view, order).0.into_iter().map(|ring| measure.errors(view, &ring).0);
                 all.fold([0.0f64; 4], |worst, errors| std::array::from_fn(|k| worst[k].max(errors[k])))
             };
+            let fresh = errors(&start, &view);
             for [place, momentum] in places.into_iter().chain(momenta) {
                 let moved = |by: f64| Observer { position: start.position + by * place, momentum: start.momentum + by * momentum, ..start };
                 let kept = |by: f64| {
@@ -252,7 +253,7 @@ fn worse_than_new(times: f64) -> [f64; 4] {
                 let mut new = DiskView::of(&disk);
                 follow(&mut new, camera);
                 let [old, new] = [kept(least).expect("it was kept there"), new].map(|view| errors(&camera, &view));
-                let worse: [f64; 4] = std::array::from_fn(|k| old[k] / new[k].max(1.0));
+                let worse: [f64; 4] = std::array::from_fn(|k| old[k] / new[k].max(fresh[k]).max(1.0));
                 println!("{:.2} order {order} by {place} {momentum} {least:.4}: {worse:.2?}: {old:.2?}, new {new:.2?}", start.position);
                 worst = std::array::from_fn(|k| worst[k].max(worse[k]));
             }
