@@ -244,7 +244,7 @@ impl AuroraMotion {
         while !self.part_of_step() {}
     }
 
-    /// The next part of a step: its field, or the way of [`NODES_AT_ONCE`] nodes. True once the step is done; until then some nodes are
+    /// The next part of a step: its field, or the way of `NODES_AT_ONCE` nodes. True once the step is done; until then some nodes are
     /// ahead of the others.
     pub fn part_of_step(&mut self) -> bool {
         if self.moved == self.nodes.len() {
