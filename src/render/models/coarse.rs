@@ -7,7 +7,7 @@ use crate::scene::Model;
 
 /// How far stand-ins are from their model, the finest first, as shares of the diameter: for images half as wide twice as far. What moves it
 /// farther is no longer its shape.
-const ERRORS: [f64; 6] = [0.0025, 0.005, 0.01, 0.02, 0.04, 0.09];
+const ERRORS: [f64; 5] = [0.005, 0.01, 0.02, 0.04, 0.09];
 /// Share of an error up to which edges are collapsed: a corner may come to lie a little farther than each of its steps cost.
 const SURELY: f64 = 0.9;
 /// A stand-in has at most this share of the triangles of the next finer.
