@@ -53,7 +53,7 @@ pub fn stand_ins(model: &Model) -> Vec<StandIn> {
 }
 
 /// Most by which the light of a material is changed so that its smaller surface sends out as much.
-const MOST_BRIGHTENED: f64 = 2.0;
+const MOST_BRIGHTENED: f64 = 3.0;
 
 /// Of each material that shines: a stand-in with less of its surface shines so much more. Else the exposure of the picture would follow.
 fn keep_light(coarser: &mut Model, finer: &Model) {
