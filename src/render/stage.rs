@@ -53,8 +53,7 @@ pub struct Stage {
     animation: Option<AuroraAnimation>,
 }
 
-/// How far a stand-in may be from its model where half a pixel is allowed, in pixels. With 0.4, outlines of ships of some twenty pixels
-/// differ from the exact ones in more pixels than is allowed.
+/// How far a stand-in may be from its model where half a pixel is allowed, in pixels: chords have the rest.
 const MOST_MOVED: f64 = 0.25;
 
 /// A model, its coarsest stand-in, and all of them, the coarsest first, each up to a width in pixels where half a pixel is allowed.
