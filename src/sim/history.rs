@@ -425,3 +425,18 @@ fn between(earlier: &Node, later: &Node, time: f64) -> Sample {
     };
     Sample::from(&state)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What came from far away at nearly the speed of light is looked up in few steps.
+    #[test]
+    fn a_long_past_has_few_nodes() {
+        let mut history = History::new(0.0, &ShipState::new(DVec3::X * 10.0, DVec3::Z * 1000.0));
+        history.reach_back(-1e7);
+        assert!(history.past.len() < 500, "{}", history.past.len());
+        let away = history.at(-1e6).position.length();
+        assert!((away / 1e6 - 1.0).abs() < 1e-2, "{away}");
+    }
+}

@@ -36,10 +36,10 @@ pub struct BodyLists {
 
 impl BodyLists {
     /// Of what is `placed` and, behind it, what is `held`, with room for `budget` vertices of the mesh stage; no buffer may be larger than
-    /// `most` bytes. Where models do not fit, the smallest images are drawn by their coarsest stand-ins, and where those do not, they are left
-    /// out; both are counted.
+    /// `most` bytes. Where models do not fit, the smallest images are drawn by their coarsest stand-ins; where those do not, they are left out.
+    /// Both are counted.
     pub fn new(placed: &[Placed], held: Option<HeldImages>, budget: u32, most: u64) -> BodyLists {
-        let fitted = Fitted::new(placed, (MODELS * most as f64 / size_of::<SeenVertex>() as f64) as u64);
+        let fitted = Fitted::new(placed, vertex_limit(budget, most));
         let mut instances: Vec<Instance> = Vec::with_capacity(placed.len());
         let mut chunks: [Vec<Chunk>; 3] = Default::default();
         let drawn = || {
@@ -152,14 +152,11 @@ fn end(taken: u32, more: u64, limit: u64) -> u32 {
     (u64::from(taken) + more).min(limit.max(taken.into())) as u32
 }
 
-/// The most vertices that models may have where something is held: an eighth of the largest buffer is left to the mesh stage.
+/// The most vertices that models may have: an eighth of the largest buffer is left to the mesh stage.
 fn vertex_limit(budget: u32, most: u64) -> u64 {
     let all = most / size_of::<SeenVertex>() as u64;
     all - u64::from(budget).min(all / 8)
 }
-
-/// The share of a buffer of seen vertices that models may take; the mesh stage has the rest.
-const MODELS: f64 = 0.75;
 
 /// Which model each image is drawn by, where all of them do not fit.
 #[derive(Debug, Default)]
@@ -223,4 +220,31 @@ fn instance_table<'a>(instances: &mut [Instance], nodes: impl Iterator<Item = &'
         first += nodes.as_flattened().len();
     }
     [bytemuck::cast_slice(instances), &behind].concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What does not fit is drawn by its coarsest model, the smallest image first, then left out.
+    #[test]
+    fn small_images_give_way() {
+        let range = |count: u32| ModelRange { vertices: [0, count], edges: [0, count], triangles: [0, count], material: 0 };
+        let (model, coarse) = (range(1_000), range(100));
+        let image = |width: f64| Placed { model, coarse, width, instance: Instance::default(), nodes: Vec::new(), calmed: false };
+        let placed: Vec<Placed> = [3.0, 1.0, 2.0].map(image).into();
+        let models = |room: u64| {
+            let fitted = Fitted::new(&placed, room);
+            let vertices = placed.iter().enumerate().map(|(k, item)| fitted.model(k, item).map_or(0, |model| model.vertices[1]));
+            (vertices.collect::<Vec<_>>(), [fitted.simpler, fitted.left_out])
+        };
+        assert_eq!(models(3_000), (vec![1_000, 1_000, 1_000], [0, 0]));
+        assert_eq!(models(2_500), (vec![1_000, 100, 1_000], [1, 0]));
+        assert_eq!(models(250), (vec![100, 0, 100], [3, 1]));
+        // No buffer is larger than it may be.
+        let most = 80 * 2_500;
+        let lists = BodyLists::new(&placed, None, 1_000_000, most);
+        assert!(u64::from(lists.capacity.vertices) * size_of::<SeenVertex>() as u64 <= most);
+        assert!(u64::from(lists.capacity.indices) * INDEX_BYTES <= most && lists.counters.simpler == 1);
+    }
 }
