@@ -36,8 +36,8 @@ pub struct BodyLists {
 
 impl BodyLists {
     /// Of what is `placed` and, behind it, what is `held`, with room for `budget` vertices of the mesh stage; no buffer may be larger than
-    /// `most` bytes. Where models do not fit, the smallest images are drawn by their coarsest stand-ins; where those do not, they are left out.
-    /// Both are counted.
+    /// `most` bytes. Where models do not fit, the smallest images are drawn by their coarsest stand-ins; where those do not, they are
+    /// left out. Both are counted.
     pub fn new(placed: &[Placed], held: Option<HeldImages>, budget: u32, most: u64) -> BodyLists {
         let fitted = Fitted::new(placed, vertex_limit(budget, most));
         let mut instances: Vec<Instance> = Vec::with_capacity(placed.len());
