@@ -1,5 +1,7 @@
 //! Whole frames without a window, for whoever times them.
 
+use std::time::Duration;
+
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::PictureError;
 use lensrunner::render::gpu::targets::target;
@@ -41,4 +43,16 @@ pub fn processor_time() -> Option<f64> {
         sum += text.split_whitespace().next()?.parse::<f64>().ok()? * 1e-6;
     }
     Some(sum)
+}
+
+/// The milliseconds that this thread has been on a processor, where the system tells; else those that have passed.
+pub fn thread_time() -> f64 {
+    #[cfg(unix)]
+    let time = Duration::try_from(rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime)).unwrap_or_default();
+    #[cfg(not(unix))]
+    let time = {
+        static BEGIN: std::sync::LazyLock<std::time::Instant> = std::sync::LazyLock::new(std::time::Instant::now);
+        BEGIN.elapsed()
+    };
+    time.as_secs_f64() * 1e3
 }

@@ -27,8 +27,8 @@ fn screen_step(c: vec3<f32>, v: vec3<f32>, focal: vec2<f32>) -> vec2<f32> {
 /// Strokes whose lesser standard deviation, in pixels, is below this are added pixel by pixel. Wider ones go to the level where it is half
 /// of this or more; with less it would be too narrow for the coarse pixels once the widening by enlarging has been taken off.
 const NARROW: f32 = 1.5;
-/// Sizes of the depth tiles, whose least and greatest depths are known: 8 pixels, 16, and so on. As in src/render/aurora/levels.rs.
-const DEPTH_TILES: u32 = 6u;
+/// The least size of the depth tiles, whose least and greatest depths are known: 8 pixels, 16, and so on, a level of `ranges` each. As in
+/// src/render/aurora/levels.rs.
 const LEAST_DEPTH_TILE: u32 = 8u;
 
 /// The least and the greatest depth of what is drawn in a box of pixels (left, top, right, bottom) on the screen, at least.
@@ -36,7 +36,7 @@ fn depths_in(pixels: vec4<f32>) -> vec2<f32> {
     let inside = vec4<u32>(clamp(pixels, vec4<f32>(0.0), frame.size.xyxy - 1.0));
     let side = max(inside.z - inside.x, inside.w - inside.y);
     // Tiles as wide as the box, as far as there are: it touches two of them a side.
-    let size = min(firstLeadingBit(max(side, LEAST_DEPTH_TILE) / LEAST_DEPTH_TILE) + 1u, DEPTH_TILES - 1u);
+    let size = min(firstLeadingBit(max(side, LEAST_DEPTH_TILE) / LEAST_DEPTH_TILE) + 1u, textureNumLevels(ranges) - 1u);
     let tile = inside >> vec4<u32>(size + firstTrailingBit(LEAST_DEPTH_TILE));
     var range = vec2<f32>(1.0, 0.0);
     for (var y = tile.y; y <= tile.w; y++) {

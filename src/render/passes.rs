@@ -22,7 +22,20 @@ pub struct Recording<'a> {
     pub targets: &'a Targets,
 }
 
+/// Whether a stage of compute has anything to do, its name, and what it does.
+type Stage<'a> = (bool, &'static str, &'a dyn Fn(&mut wgpu::ComputePass));
+
 impl Recording<'_> {
+    /// Stages one after the other: in one pass, or where passes are timed each in its own.
+    fn stages(&mut self, stages: &[Stage]) {
+        let stages = stages.iter().filter(|(wanted, ..)| *wanted);
+        if self.timing.separates() {
+            stages.for_each(|(_, label, run)| self.compute(label, run));
+        } else {
+            self.compute("compute", |pass| stages.for_each(|(.., run)| run(pass)));
+        }
+    }
+
     /// A compute pass of this name.
     fn compute(&mut self, label: &'static str, run: impl FnOnce(&mut wgpu::ComputePass)) {
         let timestamp_writes = self.timing.compute(self.encoder, label);
@@ -52,30 +65,26 @@ impl Shown<'_> {
     /// The compute passes before anything is drawn.
     pub fn compute(&self, recording: &mut Recording) {
         let geometry = self.geometry;
-        if geometry.has_held() {
-            recording.compute("place", |pass| geometry.place(pass));
-        }
-        if !geometry.is_empty() {
-            recording.compute("vertices", |pass| geometry.vertices(pass));
-            recording.compute("edges", |pass| geometry.edges(pass));
-            recording.compute("triangles", |pass| geometry.triangles(pass));
-            recording.compute("refine", |pass| geometry.refine(pass));
-            recording.compute("mesh", |pass| geometry.mesh(pass));
-        }
-        if geometry.has_thin() {
+        let (bodies, aurora) = (!geometry.is_empty(), self.aurora.images() > 0);
+        let thin = geometry.has_thin();
+        if thin {
             self.thin.clear(recording.encoder);
-            recording.compute("thin lists", |pass| self.thin.list(pass, geometry.arguments()));
         }
-        recording.compute("sky", |pass| self.background.cells(pass));
-        recording.compute("stars", |pass| self.stars.project(pass));
-        if self.aurora.images() > 0 {
-            recording.compute("aurora project", |pass| self.aurora.project(pass));
-            recording.compute("aurora ends", |pass| self.aurora.ends(pass));
-        }
-        if let Some(disk) = self.disk {
-            recording.compute("disk arcs", |pass| disk.compute(pass));
-            recording.compute("disk mesh", |pass| disk.compute_rest(pass));
-        }
+        recording.stages(&[
+            (geometry.has_held(), "place", &|pass| geometry.place(pass)),
+            (bodies, "vertices", &|pass| geometry.vertices(pass)),
+            (bodies, "edges", &|pass| geometry.edges(pass)),
+            (bodies, "triangles", &|pass| geometry.triangles(pass)),
+            (bodies, "refine", &|pass| geometry.refine(pass)),
+            (bodies, "mesh", &|pass| geometry.mesh(pass)),
+            (thin, "thin lists", &|pass| self.thin.list(pass, geometry.arguments())),
+            (true, "sky", &|pass| self.background.cells(pass)),
+            (true, "stars", &|pass| self.stars.project(pass)),
+            (aurora, "aurora project", &|pass| self.aurora.project(pass)),
+            (aurora, "aurora ends", &|pass| self.aurora.ends(pass)),
+            (self.disk.is_some(), "disk arcs", &|pass| self.disk.iter().for_each(|disk| disk.compute(pass))),
+            (self.disk.is_some(), "disk mesh", &|pass| self.disk.iter().for_each(|disk| disk.compute_rest(pass))),
+        ]);
     }
 
     /// Draws what has depth, and the sky behind it.

@@ -46,10 +46,14 @@ pub struct SceneReady(pub Option<Arc<SceneUpload>>);
 #[derive(Resource, Clone, Debug, Default)]
 pub struct FrameToDraw(pub Option<FrameInput>);
 
+/// Main world: whether anybody reads how long each pass takes. Else passes are not timed: that costs the processor time.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+pub struct PassesTimed(pub bool);
+
 /// Main world: what an earlier frame, two or three before this one, took and counted.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct RenderStatistics {
-    /// Duration of each pass on the GPU, in ms; empty where it has no timestamps.
+    /// Duration of each pass on the GPU, in ms; empty where it has no timestamps, or while they are not [timed](PassesTimed).
     pub passes: Vec<(&'static str, f32)>,
     /// What the processor did to prepare and record the last frame, in ms.
     pub work: Vec<(&'static str, f32)>,
@@ -82,6 +86,7 @@ impl Plugin for RelativisticRenderPlugin {
             .init_resource::<SceneToDraw>()
             .init_resource::<SceneReady>()
             .init_resource::<RenderStatistics>()
+            .init_resource::<PassesTimed>()
             .insert_resource(making.clone())
             .insert_resource(wake.clone())
             .add_systems(PreUpdate, take_table.run_if(not(resource_exists::<LensingTable>)));
@@ -180,11 +185,15 @@ fn exchange(mut main: ResMut<MainWorld>, mut loader: ResMut<RendererLoader>, mut
     if let Some(mut state) = main.get_resource_mut::<SceneReady>() {
         state.0 = ready;
     }
+    let timed = main.get_resource::<PassesTimed>().is_some_and(|timed| timed.0);
     let (Some(mut statistics), Some(renderer)) = (main.get_resource_mut::<RenderStatistics>(), loader.renderer()) else { return };
     // Splitting follows what earlier frames needed.
     renderer.set_counting(true);
+    renderer.timing().set_timing(timed);
     statistics.passes.clear();
-    statistics.passes.extend_from_slice(renderer.timing().latest());
+    if timed {
+        statistics.passes.extend_from_slice(renderer.timing().latest());
+    }
     statistics.work.clear();
     statistics.work.extend_from_slice(renderer.timing().work());
     (statistics.counters, statistics.disk) = renderer.latest_counters();

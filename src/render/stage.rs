@@ -187,6 +187,11 @@ impl Stage {
         }
     }
 
+    /// Whether that holds its aurora to a share, so that passes must be timed.
+    pub fn rations_aurora(&self) -> bool {
+        self.animation.as_ref().is_some_and(AuroraAnimation::is_rationed)
+    }
+
     /// What of it takes time.
     pub fn class(&self) -> SceneClass {
         SceneClass::of(self.holds || !self.objects.is_empty(), self.disk.is_some(), self.animation.is_some())

@@ -17,7 +17,7 @@ use crate::play::menus::screens::Screen;
 use crate::play::photo::state::Photo;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
-use crate::render::plugin::{FrameToDraw, RenderStatistics};
+use crate::render::plugin::{FrameToDraw, PassesTimed, RenderStatistics};
 use crate::render::settings::{ANY_FILL, Settings, greatest_rise};
 use crate::render::stage::settings;
 use crate::scene::mission::GoalTask;
@@ -104,8 +104,8 @@ fn make_frame(
     (mut current, shot, statistics, quality): (ResMut<CurrentStage>, Res<CurrentShot>, Res<RenderStatistics>, Res<Quality>),
     real: Res<Time<Real>>,
     screen: Res<State<Screen>>,
-    (windows, photo): (Query<&Window, With<PrimaryWindow>>, Option<Res<Photo>>),
-    mut frame: ResMut<FrameToDraw>,
+    (windows, photo, player): (Query<&Window, With<PrimaryWindow>>, Option<Res<Photo>>, Res<PlayerState>),
+    (mut frame, mut timed): (ResMut<FrameToDraw>, ResMut<PassesTimed>),
     mut last: Local<Option<(ScreenContent, f64)>>,
 ) {
     let seconds = real.delta_secs_f64();
@@ -122,6 +122,7 @@ fn make_frame(
     let config = of_photo.as_ref().unwrap_or(config);
     // Times of an earlier frame will do.
     current.0.ration_aurora(&statistics.passes);
+    timed.0 = player.overlay || quality.hold().is_some() || current.0.rations_aurora();
     let mut settings = Settings { rise, ..quality.turned(&settings(config)) };
     if is_cut(&mut last, sight(&now, *screen.get()), now.clock()) {
         // Another picture than that before: the exposure is at once what suits it. What was exposed before says nothing of how light a ship

@@ -89,7 +89,7 @@ fn place(size: [u32; 2], level: u32) -> [[f32; 2]; 2] {
     [scale, offset]
 }
 
-/// Number of sizes of depth tiles, for which the least and greatest depth are known; as in walk.wgsl.
+/// Number of sizes of depth tiles, for which the least and greatest depth are known.
 pub const DEPTH_TILES: u32 = 6;
 /// The least size of a depth tile, in pixels; as in walk.wgsl.
 pub const LEAST_DEPTH_TILE: u32 = 8;
@@ -103,7 +103,10 @@ pub struct Ranges {
     nearest: wgpu::Sampler,
     /// The depth texture for which the rest was made.
     depth: Option<wgpu::TextureView>,
-    all: wgpu::TextureView,
+    texture: wgpu::Texture,
+    /// Those of its levels that are made in a frame.
+    made: wgpu::TextureView,
+    levels: u32,
     steps: Vec<(wgpu::TextureView, wgpu::BindGroup)>,
 }
 
@@ -116,18 +119,32 @@ impl Ranges {
             let module = module(device, "aurora ranges", Pass::AuroraRanges);
             raster(device, "aurora ranges", &module, stage, &[Some(frame_layout), Some(&layout)])
         };
-        let all = texture(device, [1, 1]).create_view(&Default::default());
+        let texture = texture(device, [1, 1]);
+        let made = texture.create_view(&Default::default());
         let nearest = device.create_sampler(&wgpu::SamplerDescriptor::default());
-        Ranges { first: draw("first"), next: draw("next"), layout, nearest, depth: None, all, steps: Vec::new() }
+        Ranges { first: draw("first"), next: draw("next"), layout, nearest, depth: None, texture, made, levels: 0, steps: Vec::new() }
     }
 
-    /// Takes the depth texture of a screen of a size. True if the texture of ranges was replaced.
-    pub fn prepare(&mut self, device: &wgpu::Device, depth: &wgpu::TextureView, size: [u32; 2]) -> bool {
-        if self.depth.as_ref() == Some(depth) {
-            return false;
+    /// Takes the depth texture of a screen of a size, for images of up to so many pixels a side. True if the texture of ranges was
+    /// replaced.
+    pub fn prepare(&mut self, device: &wgpu::Device, depth: &wgpu::TextureView, size: [u32; 2], widest: u32) -> bool {
+        // Tiles as wide as the largest box: it touches two of them a side.
+        let levels = (widest / LEAST_DEPTH_TILE).max(1).ilog2() + 2;
+        let is_new = self.depth.as_ref() != Some(depth);
+        if is_new {
+            self.make(device, depth, size);
         }
+        let replaced = is_new || self.levels != levels.min(DEPTH_TILES);
+        if replaced {
+            self.levels = levels.min(DEPTH_TILES);
+            let made = wgpu::TextureViewDescriptor { mip_level_count: Some(self.levels), ..Default::default() };
+            self.made = self.texture.create_view(&made);
+        }
+        replaced
+    }
+
+    fn make(&mut self, device: &wgpu::Device, depth: &wgpu::TextureView, size: [u32; 2]) {
         let texture = texture(device, size);
-        self.all = texture.create_view(&Default::default());
         let one = |step| {
             let only = wgpu::TextureViewDescriptor { base_mip_level: step, mip_level_count: Some(1), ..Default::default() };
             texture.create_view(&only)
@@ -142,18 +159,18 @@ impl Ranges {
             nothing = own.clone();
             self.steps.push((own, group));
         }
+        self.texture = texture;
         self.depth = Some(depth.clone());
-        true
     }
 
-    /// The texture, all sizes of depth tiles.
+    /// The texture: the sizes of depth tiles that are made, a level each.
     pub fn view(&self) -> &wgpu::TextureView {
-        &self.all
+        &self.made
     }
 
     /// Finds the ranges, after everything with depth has been drawn. `frame` is the bind group of the frame.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, timing: &mut Timing, frame: &wgpu::BindGroup) {
-        for (step, (view, group)) in self.steps.iter().enumerate() {
+        for (step, (view, group)) in self.steps.iter().enumerate().take(self.levels as usize) {
             let timestamp_writes = timing.render(encoder, "aurora ranges");
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("aurora ranges"),

@@ -20,7 +20,7 @@ pub use animation::planet_view::PlanetLine;
 pub use animation::streaks::{RED_EVERY, SMOOTH};
 pub use animation::{AuroraAnimation, AuroraFrame, RAYS_PERIOD};
 pub use colours::Colours;
-pub use levels::{DEPTH_TILES, LEAST_DEPTH_TILE, PYRAMID};
+pub use levels::{LEAST_DEPTH_TILE, PYRAMID};
 pub use pass::{Aurora, CHORD_END_BYTES, REFERENCE_BYTES, STROKE_BYTES};
 pub use shift::SHIFTS;
 

@@ -158,7 +158,9 @@ impl Aurora {
             self.levels = Some(Levels::new(gpu, targets.size));
             replaced = true;
         }
-        replaced |= self.ranges.prepare(device, &targets.depth, targets.size);
+        self.images = frame.parts.iter().map(|part| pixels(*part, targets.size)).zip(frame.behind.iter().copied()).take(orders).collect();
+        let widest = self.images.iter().map(|([.., width, height], _)| (*width).max(*height)).max();
+        replaced |= self.ranges.prepare(device, &targets.depth, targets.size, widest.unwrap_or(0));
         if replaced {
             self.groups = None;
         }
@@ -174,7 +176,6 @@ impl Aurora {
             let colours = Colours { lines: colours.lines.map(|lines| lines.map(rgb)), tile, ..*colours };
             gpu.queue.write_buffer(buffer, 0, bytemuck::bytes_of(&colours));
         }
-        self.images = frame.parts.iter().map(|part| pixels(*part, targets.size)).zip(frame.behind.iter().copied()).take(orders).collect();
         self.drawn = [streaks, chords, orders as u32];
     }
 

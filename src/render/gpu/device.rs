@@ -120,7 +120,10 @@ impl Gpu {
 
     /// The same with no more of its optional features than these.
     pub fn headless_with(optional: wgpu::Features) -> Result<Gpu, DeviceError> {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+        // As Bevy's: the arguments of indirect calls are made by shaders of ours. `./test` has them checked.
+        descriptor.flags = (wgpu::InstanceFlags::default() - wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL).with_env();
+        let instance = wgpu::Instance::new(descriptor);
         let adapter = wait(instance.request_adapter(&wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
             ..Default::default()

@@ -38,8 +38,12 @@ struct Inner {
     copied: Option<Labels>,
     latest: Vec<(&'static str, f32)>,
     latest_fragments: Vec<(&'static str, u64)>,
+    /// Whether passes are timed: timestamps take the processor's time too.
+    timing: bool,
     /// Whether fragments are counted: it takes one or two hundredths of a pass on a software driver.
     counting: bool,
+    /// Whether both are done in this frame: not while the results of an earlier one are on their way.
+    now: bool,
 }
 
 /// The passes of a frame, in the order of their queries.
@@ -81,7 +85,9 @@ impl Timing {
                 copied: None,
                 latest: Vec::new(),
                 latest_fragments: Vec::new(),
+                timing: true,
                 counting: false,
+                now: false,
             }),
             steps: None,
             work: Vec::new(),
@@ -133,8 +139,10 @@ impl Timing {
     /// be.
     pub fn begin(&mut self) {
         self.steps.iter_mut().for_each(Steps::begin);
+        self.receive();
         let Some(inner) = &mut self.inner else { return };
-        inner.labels = Labels::default();
+        inner.labels.timed.clear();
+        inner.labels.counted.clear();
         if let Some(labels) = inner.copied.take() {
             let (send, receive) = std::sync::mpsc::channel();
             inner.mapped.slice(..).map_async(wgpu::MapMode::Read, move |result| {
@@ -143,6 +151,12 @@ impl Timing {
             });
             inner.waiting = Some((labels, receive));
         }
+        inner.now = (inner.timing || inner.counting) && inner.waiting.is_none();
+    }
+
+    /// Whether each pass of this frame is timed by itself. Else passes of compute may be recorded as one.
+    pub fn separates(&self) -> bool {
+        self.steps.is_some() || self.inner.as_ref().is_some_and(|inner| inner.now)
     }
 
     fn slot(&mut self, encoder: &mut wgpu::CommandEncoder, label: &'static str) -> Option<(&wgpu::QuerySet, u32)> {
@@ -150,7 +164,7 @@ impl Timing {
             steps.step(encoder, label);
             return None;
         }
-        let inner = self.inner.as_mut()?;
+        let inner = self.inner.as_mut().filter(|inner| inner.now)?;
         let index = inner.labels.timed.len() as u32;
         if index >= PASSES {
             return None;
@@ -185,6 +199,13 @@ impl Timing {
         })
     }
 
+    /// Times the passes of the frames to come, as from the beginning on, or no longer.
+    pub fn set_timing(&mut self, timing: bool) {
+        if let Some(inner) = &mut self.inner {
+            inner.timing = timing;
+        }
+    }
+
     /// Counts fragments in the frames to come, or no longer.
     pub fn set_counting(&mut self, counting: bool) {
         if let Some(inner) = &mut self.inner {
@@ -194,7 +215,7 @@ impl Timing {
 
     /// Draws in a pass while its fragments are counted, if that is asked for and the device does it.
     pub fn count(&mut self, label: &'static str, pass: &mut wgpu::RenderPass<'_>, draw: impl FnOnce(&mut wgpu::RenderPass<'_>)) {
-        let counting = self.inner.as_mut().filter(|inner| inner.counting);
+        let counting = self.inner.as_mut().filter(|inner| inner.counting && inner.now);
         let counted = counting.and_then(|Inner { fragments, labels, .. }| Some((fragments.as_ref()?, &mut labels.counted)));
         match counted.filter(|(_, labels)| labels.len() < COUNTED as usize) {
             Some((queries, labels)) => {
@@ -207,14 +228,14 @@ impl Timing {
         }
     }
 
-    /// Copies the results out, unless an earlier copy is still on its way.
+    /// Copies the results out.
     pub fn end(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if let Some(steps) = &mut self.steps {
             steps.end(encoder);
             return;
         }
         let Some(inner) = &mut self.inner else { return };
-        if inner.waiting.is_some() || inner.copied.is_some() || inner.labels.timed.is_empty() {
+        if inner.labels.timed.is_empty() {
             return;
         }
         encoder.resolve_query_set(&inner.queries, 0..2 * inner.labels.timed.len() as u32, &inner.resolved, 0);

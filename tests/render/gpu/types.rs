@@ -7,7 +7,7 @@ use lensrunner::lensing::methods::Method;
 use lensrunner::render::aurora::capacities::{CORNERS, LIT_TILES};
 use lensrunner::render::aurora::ground::GroundLight;
 use lensrunner::render::aurora::{
-    AuroraSettings, BOTH_POLES, CHORD_END_BYTES, Colours, CurtainNode, DEPTH_TILES, LEAST_DEPTH_TILE, LINEAR, PYRAMID, RED_EVERY,
+    AuroraSettings, BOTH_POLES, CHORD_END_BYTES, Colours, CurtainNode, LEAST_DEPTH_TILE, LINEAR, PYRAMID, RED_EVERY,
     REFERENCE_BYTES, SHIFTS, SMOOTH, STROKE_BYTES, Segment,
 };
 use lensrunner::render::disk::circles::AZIMUTHS;
@@ -200,7 +200,6 @@ fn named_constant(module: &Module, name: &str, path: &str) -> f64 {
 fn constants_of_passes_have_one_value_in_both_languages() {
     let cases = [
         (Pass::Flashes, "GROUPS", f64::from(flashes::GROUPS)),
-        (Pass::AuroraWalk, "DEPTH_TILES", f64::from(DEPTH_TILES)),
         (Pass::AuroraWalk, "LEAST_DEPTH_TILE", f64::from(LEAST_DEPTH_TILE)),
     ];
     for (pass, name, value) in cases {

@@ -195,6 +195,11 @@ impl AuroraAnimation {
         self.ration.follow(passes, self.config.share);
     }
 
+    /// Whether it is held to a share that it may exceed.
+    pub fn is_rationed(&self) -> bool {
+        self.config.share < 1.0
+    }
+
     /// The aurora in the frame at T = `time`. None while it is out of sight or too small to see; then nothing is simulated. `back` is how
     /// far back light comes from, in r_s/c.
     pub fn frame(&mut self, view: &InstanceView, time: f64, back: f64, orders: u32) -> Option<AuroraFrame> {

@@ -34,7 +34,8 @@ const PARTS_PER_PIXEL: f64 = 1.2;
 const LEAST_PARTS: u32 = 2;
 /// Heights that a streak goes through at most, km.
 const LONGEST: f64 = HEIGHTS[0] - HEIGHTS[1];
-/// If no point is wider than this (one standard deviation in pixels, as if space were flat), only the finest level of the pyramid is used.
+/// If no point is wider than this (one standard deviation in pixels, as if space were flat), only the finest level of the pyramid is used;
+/// if none is wider than twice of it, the two finest, and so on.
 /// The walk uses coarser levels from 1.5 on.
 const NARROW: f64 = 1.0;
 
@@ -162,7 +163,11 @@ impl Curtains<'_> {
         let spread = segments.iter().map(|segment| spread(segment, self.poles())).fold(0.0, f64::max);
         let scale = globe.radius / PLANET_RADIUS;
         let widest = self.config.radius.hypot(spread) * scale / (nearest * globe.view.pixel) * globe.magnification();
-        if nearest <= reach || widest > NARROW { PYRAMID } else { 1 }
+        if nearest <= reach {
+            return PYRAMID;
+        }
+        // Each level has strokes of up to twice the width.
+        1 + (2.0 * widest / NARROW).log2().clamp(0.0, f64::from(PYRAMID - 1)) as u32
     }
 }
 
