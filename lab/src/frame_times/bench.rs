@@ -183,7 +183,9 @@ impl Stand<'_> {
         queue.submit([commands]);
         // A software driver begins its own work meanwhile: this thread may have to wait for a processor.
         let submitted = thread_time() - submitting;
-        if std::env::var("DBG").is_ok() { eprintln!("finish {:.3} submit {:.3}", finished - submitting, submitted - (finished - submitting)); }
+        if std::env::var("DBG").is_ok() {
+            eprintln!("finish {:.3} submit {:.3}", finished - submitting, submitted - (finished - submitting));
+        }
         device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
         let whole = milliseconds(begin);
         let work = self.renderer.timing().work().iter().map(|&(name, time)| (PROCESSOR, name, f64::from(time)));

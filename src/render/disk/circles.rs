@@ -252,19 +252,10 @@ impl<'a> Look<'a> {
         }
     }
 
-    /// The fewest of the circles on offer that keep all errors `within` their limits; `seen` are those circles, and `chosen` room for their
-    /// numbers.
+    /// Chooses the fewest of the circles on offer that keep all errors `within` their limits; `seen` are those circles.
     ///
     /// `own`, by azimuth, is the share of a circle's own gas that the image shows; the rest is the mean gas of a thin image.
-    pub fn rows(
-        &self,
-        offer: &Offer,
-        seen: &mut [SeenCircle],
-        own: &[f64; AZIMUTHS],
-        within: Within,
-        chosen: &mut Vec<usize>,
-        rows: &mut Circles,
-    ) {
+    pub fn choose(&self, seen: &mut [SeenCircle], own: &[f64; AZIMUTHS], within: Within, chosen: &mut Vec<usize>) {
         let brightest = take_brightest(seen);
         let smooth = |a: usize, b: usize| {
             let ring = [&seen[a], &seen[(a + b) / 2], &seen[b]];
@@ -287,6 +278,18 @@ impl<'a> Look<'a> {
                 last = k;
             }
         }
+    }
+
+    /// Looks again at those of the circles on offer that [`rows`](Look::rows) needs for the `chosen` ones.
+    pub fn look_again(&self, offer: &Offer, seen: &mut [SeenCircle], chosen: &[usize]) {
+        let middles = chosen.windows(2).map(|pair| (pair[0] + pair[1]) / 2);
+        for k in chosen.iter().copied().chain(middles.filter(|k| chosen.binary_search(k).is_err())) {
+            seen[k] = self.circle(&offer.circles[k]);
+        }
+    }
+
+    /// The `chosen` of the circles on offer, which are `seen` like this, and the rings between them.
+    pub fn rows(&self, offer: &Offer, seen: &[SeenCircle], chosen: &[usize], rows: &mut Circles) {
         rows.gas.clear();
         rows.gas.extend(chosen.iter().map(|&k| offer.circles[k]));
         rows.pairs.clear();

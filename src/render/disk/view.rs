@@ -39,6 +39,8 @@ const DETOUR: f64 = 60.0;
 /// How far a camera may move before order 1 is made anew, and before orders 2 and 3 are, over its distance from the gas. Then errors of
 /// rings are hardly greater than those of new ones, with twice the second too (`kept_rings_are_as_true_as_new_ones`).
 const KEPT: [f64; 2] = [0.01, 0.02];
+/// For how many times as long the choice of circles is kept: what is then made anew is the rings between them.
+const CHOICE_KEPT: f64 = 3.0;
 /// What a change of the camera's momentum counts beside that: light goes as an exponential of its frequency.
 const FASTER: f64 = 2.0;
 
@@ -63,12 +65,15 @@ pub struct DiskView {
     pub has_moved: bool,
     /// How far a camera may move before an image is made anew, over its distance from the gas: order 1, orders 2 and 3.
     pub kept: [f64; 2],
+    /// How many times as far before its circles are chosen anew.
+    pub choice_kept: f64,
     /// Where circles and cuts were last told for: position, field of view, width.
     facing: Option<(DVec3, f64, u32)>,
     /// From far and from near.
     offers: [Offer; 2],
     images: [Image; 3],
-    room: Room,
+    /// Room for what is used while an image is made.
+    shares: Vec<f64>,
 }
 
 /// One image order of the disk.
@@ -76,17 +81,14 @@ pub struct DiskView {
 struct Image {
     /// For whom it was made; None where there is none.
     stand: Option<Stand>,
+    /// For whom its circles were chosen.
+    choice: Option<Stand>,
+    /// Those on offer as they were last seen, and which of them are chosen.
+    seen: Vec<SeenCircle>,
+    chosen: Vec<usize>,
     rows: Circles,
     /// The circles over which the mean gas of a thin image is taken.
     samples: Vec<Circle>,
-}
-
-/// Room for what is used while an image is made.
-#[derive(Clone, Debug, Default)]
-struct Room {
-    seen: Vec<SeenCircle>,
-    chosen: Vec<usize>,
-    shares: Vec<f64>,
 }
 
 /// A camera, and what else an image is made for.
@@ -138,10 +140,11 @@ impl DiskView {
             is_new: false,
             has_moved: false,
             kept: KEPT,
+            choice_kept: CHOICE_KEPT,
             facing: None,
             offers: [false, true].map(|close| Offer::new(disk, close)),
             images: Default::default(),
-            room: Room::default(),
+            shares: Vec::new(),
         }
     }
 
@@ -154,7 +157,7 @@ impl DiskView {
 
     /// Keeps nothing: the next view is made as if it were the first.
     pub fn forget(&mut self) {
-        self.images.iter_mut().for_each(|image| image.stand = None);
+        self.images.iter_mut().for_each(|image| (image.stand, image.choice) = (None, None));
     }
 
     /// Goes on to the camera and time of `input` and a picture `width` pixels wide, with the same disk.
@@ -179,21 +182,23 @@ impl DiskView {
             });
             let Some(stand) = stand else {
                 is_new |= image.stand.take().is_some();
+                image.choice = None;
                 continue;
             };
-            let moved = image.stand.map_or(f64::INFINITY, |made| made.moved(&stand, disk.gas.extent()));
+            let moved = |from: Option<Stand>| from.map_or(f64::INFINITY, |made| made.moved(&stand, disk.gas.extent()));
+            let kept = self.kept[usize::from(order > 1)];
             // One image a frame, if the other can wait.
             let wait = if is_new { 2.0 } else { 1.0 };
-            if moved > wait * self.kept[usize::from(order > 1)] {
+            if moved(image.stand) > wait * kept {
                 let look = Look::new(camera, slice, order, width, input.settings.beaming);
-                image.make(
-                    disk,
-                    &look,
-                    &plane,
-                    &self.offers[usize::from(order <= close)],
-                    f64::from(input.settings.ring_error),
-                    &mut self.room,
-                );
+                let offer = &self.offers[usize::from(order <= close)];
+                if moved(image.choice) > self.choice_kept * kept {
+                    image.make(disk, &look, &plane, offer, f64::from(input.settings.ring_error), &mut self.shares);
+                    image.choice = Some(stand);
+                } else if disk.config.gap <= 0.0 {
+                    look.look_again(offer, &mut image.seen, &image.chosen);
+                    look.rows(offer, &image.seen, &image.chosen, &mut image.rows);
+                }
                 image.stand = Some(stand);
                 is_new = true;
             }
@@ -297,9 +302,9 @@ impl Image {
     }
 
     /// Makes circles, rings and samples for one image order; rings may be off by `ring_error` times as much as at the finest.
-    fn make(&mut self, disk: &DrawnDisk, look: &Look, plane: &Plane, offer: &Offer, ring_error: f64, room: &mut Room) {
+    fn make(&mut self, disk: &DrawnDisk, look: &Look, plane: &Plane, offer: &Offer, ring_error: f64, shares: &mut Vec<f64>) {
         let (order, is_close) = (look.order, offer.is_close);
-        let Room { seen, chosen, shares } = room;
+        let Image { seen, chosen, .. } = self;
         seen.clear();
         seen.extend(offer.circles.iter().map(|gas| look.circle(gas)));
         if disk.config.gap > 0.0 {
@@ -309,7 +314,8 @@ impl Image {
         } else {
             let within = if order == 1 && is_close { FROM_NEAR } else { FROM_FAR };
             let own = own_shares(look, seen);
-            look.rows(offer, seen, &own, within.times(ring_error), chosen, &mut self.rows);
+            look.choose(seen, &own, within.times(ring_error), chosen);
+            look.rows(offer, seen, chosen, &mut self.rows);
         }
         self.samples.clear();
         if order > 1 {

@@ -7,8 +7,8 @@ use lensrunner::lensing::methods::Method;
 use lensrunner::render::aurora::capacities::{CORNERS, LIT_TILES};
 use lensrunner::render::aurora::ground::GroundLight;
 use lensrunner::render::aurora::{
-    AuroraSettings, BOTH_POLES, CHORD_END_BYTES, Colours, CurtainNode, LEAST_DEPTH_TILE, LINEAR, PYRAMID, RED_EVERY,
-    REFERENCE_BYTES, SHIFTS, SMOOTH, STROKE_BYTES, Segment,
+    AuroraSettings, BOTH_POLES, CHORD_END_BYTES, Colours, CurtainNode, LEAST_DEPTH_TILE, LINEAR, PYRAMID, RED_EVERY, REFERENCE_BYTES,
+    SHIFTS, SMOOTH, STROKE_BYTES, Segment,
 };
 use lensrunner::render::disk::circles::AZIMUTHS;
 use lensrunner::render::disk::types::{self as disk, Circle, DiskCounters, DiskFrame, DiskVertex, RadialGas, Sprite, SpriteImage, Turning};
@@ -198,10 +198,8 @@ fn named_constant(module: &Module, name: &str, path: &str) -> f64 {
 
 #[test]
 fn constants_of_passes_have_one_value_in_both_languages() {
-    let cases = [
-        (Pass::Flashes, "GROUPS", f64::from(flashes::GROUPS)),
-        (Pass::AuroraWalk, "LEAST_DEPTH_TILE", f64::from(LEAST_DEPTH_TILE)),
-    ];
+    let cases =
+        [(Pass::Flashes, "GROUPS", f64::from(flashes::GROUPS)), (Pass::AuroraWalk, "LEAST_DEPTH_TILE", f64::from(LEAST_DEPTH_TILE))];
     for (pass, name, value) in cases {
         assert_eq!(named_constant(&pass.module(), name, name), value, "{name}");
     }

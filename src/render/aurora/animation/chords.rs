@@ -28,6 +28,46 @@ const PIXELS: f64 = 0.5;
 /// Most ends of chords in all images together: 48 bytes each, in a buffer of 128 MiB.
 const MOST_ENDS: usize = 2_000_000;
 
+/// What was found for one frame is kept until camera and planet together have moved by this share of the planet's radius: streaks are bent
+/// alike that long.
+const KEPT: f64 = 0.1;
+
+/// A number of chords, and what it was found for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chords {
+    /// Of a streak that is not red.
+    pub count: u32,
+    /// Camera and planet, in r_s.
+    places: [DVec3; 2],
+    /// Radius of the planet, in r_s, and angle of a pixel, in rad.
+    radius: f64,
+    pixel: f64,
+    /// The orders in which it was seen, a bit each.
+    orders: u32,
+}
+
+impl Chords {
+    /// For a camera and a planet of this `radius` (r_s) at these places, seen in these images, by pixels of this angle (rad).
+    pub fn new(count: u32, places: [DVec3; 2], radius: f64, pixel: f64, departures: &[(Order, f64)]) -> Chords {
+        let orders = departures.iter().fold(0, |orders, (order, _)| orders | 1 << order.number());
+        Chords { count, places, radius, pixel, orders }
+    }
+
+    /// The number, if it still is right for these streaks where the rest is as in `now`.
+    pub fn kept(&self, now: &Chords, segments: &[Segment]) -> Option<u32> {
+        let moved = self.places[0].distance(now.places[0]) + self.places[1].distance(now.places[1]);
+        let is_kept = (self.orders, self.pixel) == (now.orders, now.pixel) && moved < KEPT * self.radius;
+        let fits = || ends(segments, self.count as usize, now.orders.count_ones()) <= MOST_ENDS;
+        (is_kept && fits()).then_some(self.count)
+    }
+}
+
+/// Ends of chords of these streaks in so many images.
+fn ends(segments: &[Segment], chords: usize, images: u32) -> usize {
+    let streaks: usize = segments.iter().map(|segment| segment.streaks as usize).sum();
+    streaks * (2 * chords + 1) * images as usize
+}
+
 /// What the chords depend on.
 pub struct ChordInputs<'a, 'b> {
     /// The camera.
@@ -69,8 +109,7 @@ impl ChordInputs<'_, '_> {
         departures: &[(Order, f64)],
         flags: u32,
     ) -> u32 {
-        let streaks: usize = segments.iter().map(|segment| segment.streaks as usize).sum();
-        let ends = |chords: usize| streaks * (2 * chords + 1) * departures.len();
+        let ends = |chords: usize| ends(segments, chords, departures.len() as u32);
         let poles: &[f64] = if flags & BOTH_POLES != 0 { &[1.0, -1.0] } else { &[1.0] };
         let to_camera = self.view.camera.camera_from_rain();
         let mut chords = LEAST;

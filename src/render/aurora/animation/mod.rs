@@ -29,7 +29,7 @@ use crate::scene::config::AuroraConfig;
 use crate::scene::lighting::Illumination;
 use crate::scene::planet::{AuroraShape, Planet};
 use crate::spacetime::light::Order;
-use chords::ChordInputs;
+use chords::{ChordInputs, Chords};
 use next_row::{MadeRow, NextRow, WantedMaps};
 use planet_view::{PlanetLine, PlanetView};
 use streaks::Curtains;
@@ -108,6 +108,8 @@ pub struct AuroraAnimation {
     watched: bool,
     /// The share of its streaks with which it is drawn.
     ration: Ration,
+    /// For a watched aurora: how many chords a streak has.
+    chords: Option<Chords>,
     /// For a watched aurora: how far its time, in s, is ahead of the game's clock.
     offset: f64,
     /// The pace before it was changed, until the next frame.
@@ -123,6 +125,8 @@ struct Images {
     departures: Vec<(Order, f64)>,
     /// The width of the widest, pixels.
     widest: f64,
+    /// A number of chords to keep, where it was found anew.
+    chords: Option<Chords>,
 }
 
 impl AuroraAnimation {
@@ -158,6 +162,7 @@ impl AuroraAnimation {
             maps: None,
             watched: false,
             ration: Ration::default(),
+            chords: None,
             offset: 0.0,
             old_pace: None,
         })
@@ -185,6 +190,7 @@ impl AuroraAnimation {
             self.falls = Falls::of(config);
             (self.ground, self.maps) = (None, None);
         }
+        self.chords = None;
         self.config = config.clone();
         true
     }
@@ -222,6 +228,7 @@ impl AuroraAnimation {
         let ahead = if self.watched { self.go_on(globe.time, now, images.widest) } else { self.advance(now) };
         let midnight = self.midnight(globe.position, globe.attitude);
         self.draw_streaks(&mut images, globe, ahead);
+        self.chords = images.chords.or(self.chords);
         let frame = &mut images.frame;
         frame.settings.midnight = midnight.as_vec2().to_array();
         frame.ground = self.ground(midnight, ahead, images.widest);
@@ -317,7 +324,14 @@ impl AuroraAnimation {
             heights: self.falls.ends.map(|ends| ends.map(f64::from)),
         };
         let middle = |segment: &Segment, wait: f64| self.rows.middle_of(segment, wait + ahead);
-        let chords = bend.chords(&segments, &newest.places, middle, &images.departures, flags);
+        let places = [globe.view.camera.position, globe.position];
+        let so_many = |count| Chords::new(count, places, self.planet.radius, globe.view.pixel, &images.departures);
+        let chords = self.chords.and_then(|chords| chords.kept(&so_many(0), &segments)).unwrap_or_else(|| {
+            let count = bend.chords(&segments, &newest.places, middle, &images.departures, flags);
+            // A picture that is made once does not depend on those before.
+            images.chords = self.watched.then(|| so_many(count));
+            count
+        });
         let parts = curtains.parts(globe);
         let capacity = (streaks as usize * parts as usize).min(MOST_STROKES);
         let levels = curtains.levels(globe, &segments, self.planet.radius * REACH);
