@@ -71,7 +71,8 @@ impl Bench<'_> {
         Ok(times)
     }
 
-    /// Flies a scene from its start for so many steps of the clock, and times `places` frames on the way, each after one that is not timed.
+    /// Flies a scene from its start for so many steps of the clock, and times `places` frames on the way, each after some that are not
+    /// timed: what goes on beside the frames follows by then.
     pub fn fly(&self, name: &str, scene: &Scene, steps: u64, places: u32) -> Result<FrameTimes, PictureError> {
         let mut stand = self.stand(scene);
         let mut moment = Moment::new(scene, self.config, 0.0, 0);
@@ -80,13 +81,16 @@ impl Bench<'_> {
         for place in 0..places {
             let start = (place == 0).then(Instant::now);
             let there = steps * u64::from(place) / u64::from(places.max(2) - 1);
-            stand.advance(scene, &mut moment, there.saturating_sub(flown + 1));
-            stand.frame(&moment, 0.0, None)?;
-            if let Some(start) = start {
-                times.first = milliseconds(start);
+            stand.advance(scene, &mut moment, there.saturating_sub(flown + u64::from(WARMING)));
+            for frame in 0..WARMING {
+                stand.frame(&moment, 0.0, None)?;
+                if let (0, Some(start)) = (frame, start) {
+                    times.first = milliseconds(start);
+                }
+                stand.advance(scene, &mut moment, u64::from(frame + 1 < WARMING));
             }
             let simulation = stand.advance(scene, &mut moment, 1);
-            flown = there.max(flown + 1);
+            flown = there.max(flown + u64::from(WARMING));
             times.moments.push(moment.time());
             stand.frame(&moment, simulation, Some(&mut times))?;
         }
