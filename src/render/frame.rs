@@ -15,7 +15,7 @@ use crate::render::gpu::types::{self, Capacity, flags as flag};
 use crate::render::instances::Placed;
 
 /// All that a frame shows.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct FrameInput {
     /// The camera.
     pub camera: Observer,
@@ -30,6 +30,18 @@ pub struct FrameInput {
     pub aurora: Option<AuroraFrame>,
     /// How to draw.
     pub settings: Settings,
+}
+
+impl Clone for FrameInput {
+    fn clone(&self) -> Self {
+        FrameInput { placed: self.placed.clone(), aurora: self.aurora.clone(), ..*self }
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        self.placed.clone_from(&other.placed);
+        self.aurora.clone_from(&other.aurora);
+        (self.camera, self.time, self.held, self.settings) = (other.camera, other.time, other.held, other.settings);
+    }
 }
 
 impl FrameInput {

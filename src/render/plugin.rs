@@ -169,6 +169,7 @@ fn take_frame(
     main_frame: Extract<Res<FrameToDraw>>,
     main_scene: Extract<Res<SceneToDraw>>,
 ) {
+    // In the memory of the frame before.
     frame.0.clone_from(&main_frame.0);
     scene.0.clone_from(&main_scene.0);
 }

@@ -23,7 +23,7 @@ use crate::render::disk::DrawnDisk;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::types::placed::OWN;
 use crate::render::instances::held::HeldBodies;
-use crate::render::instances::{DrawnObject, Illumination, InstanceView, ObjectMotion, Placed, StandIn, instances_of};
+use crate::render::instances::{DrawnObject, Illumination, InstanceView, ObjectMotion, Placed, PlacedList, StandIn, place};
 use crate::render::models::coarse::stand_ins;
 use crate::render::models::{ModelRange, ModelSet};
 use crate::render::post_process::upscale::drawn_size;
@@ -39,6 +39,10 @@ pub struct Stage {
     /// Whether anything is held in place.
     holds: bool,
     table: Arc<Table>,
+    /// The table at the radius of the last frame's camera; None before the first.
+    slice: Option<Slice>,
+    /// Memory of images that are not shown any more.
+    placed: PlacedList,
     camera: scene::SceneCamera,
     sky: (bool, bool, f32),
     lights: Lights,
@@ -155,6 +159,8 @@ impl Stage {
             objects,
             holds,
             table: table.clone(),
+            slice: None,
+            placed: PlacedList::default(),
             camera: scene.camera.clone(),
             sky: (scene.sky.stars, scene.sky.milky_way, scene.sky.brightness as f32),
             lights,
@@ -209,6 +215,14 @@ impl Stage {
         Some(said.unwrap_or(if flees { fleeing } else { hunting }))
     }
 
+    /// Makes the next frame in the memory of this one, which is not shown any more.
+    pub fn reuse(&mut self, frame: FrameInput) {
+        self.placed.reuse(frame.placed);
+        if let Some((animation, aurora)) = self.animation.as_mut().zip(frame.aurora) {
+            animation.reuse(aurora);
+        }
+    }
+
     /// A frame seen by `camera` at T = `time`; `histories` are the worldlines of the ships in scene order, then
     /// that of the ghost and those of the bolts. `hidden` is a ship that is not
     /// drawn (the cockpit's own); `size` is that of the picture in pixels.
@@ -221,7 +235,13 @@ impl Stage {
         hidden: Option<usize>,
         settings: &Settings,
     ) -> FrameInput {
-        let slice = Slice::new(&self.table, camera.radius());
+        let slice = match self.slice.take() {
+            Some(mut slice) => {
+                slice.move_to(&self.table, camera.radius());
+                slice
+            }
+            None => Slice::new(&self.table, camera.radius()),
+        };
         let size = drawn_size(size, settings.resolution);
         let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(size[0].max(1));
         let aspect = Some(f64::from(size[1].max(1)) / f64::from(size[0].max(1)));
@@ -230,7 +250,7 @@ impl Stage {
         let back = self.planet.as_ref().map_or(0.0, |planet| 1.5 * (camera.radius() + planet.orbit.semi_latus_rectum) + 60.0);
         let mut line = std::mem::take(&mut self.globe);
         let globe = self.planet.as_ref().and_then(|planet| line.about(planet, time, back));
-        let mut placed = Vec::new();
+        let mut list = std::mem::take(&mut self.placed);
         let mut unmetered = [0.0; 3];
         for staged in &self.objects {
             let body = &staged.object.body;
@@ -243,20 +263,22 @@ impl Stage {
             }
             let Some(line) = self.worldline(body, histories, globe) else { continue };
             let object = staged.drawn(ObjectMotion::Flying(line), self.lights.on(body, line.at(time).position));
-            let mut images = instances_of(&view, time, &object, settings.orders);
+            let images = place(&mut list, &view, time, &object, settings.orders);
             if let Some(ship) = ship {
                 if let Some(full) = self.full_thrust(ship, settings) {
-                    shine(&mut images, histories[ship], time, full);
+                    shine(images, histories[ship], time, full);
                 }
                 if settings.own_ship == Some(ship) {
                     images.iter_mut().for_each(|image| image.instance.flags |= OWN);
                     unmetered = images.first().map_or([0.0; 3], |image| circle(&camera, image, object.reach));
                 }
             }
-            placed.append(&mut images);
         }
         self.globe = line;
         let aurora = self.aurora(&view, time, back);
+        self.slice = Some(slice);
+        let placed = std::mem::take(&mut list.placed);
+        self.placed = list;
         let held = self.holds.then_some(0);
         FrameInput { camera, time, placed, held, aurora, settings: Settings { unmetered, ..self.with_sky(settings) } }
     }

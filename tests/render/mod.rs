@@ -1,5 +1,6 @@
 //! Tests of `src/render/`.
 
+mod allocations;
 mod aurora;
 mod disk;
 mod engines;

@@ -145,7 +145,10 @@ impl Stand<'_> {
         if self.bench.rationed {
             self.stage.ration_aurora(self.renderer.timing().latest());
         }
-        let Some(times) = times else { return Ok(()) };
+        let Some(times) = times else {
+            self.stage.reuse(frame);
+            return Ok(());
+        };
         drawn.work.splice(0..0, [(PROCESSOR, "simulation", simulation), (PROCESSOR, "instances and aurora", placing)]);
         drawn.whole += simulation + placing;
         let bare = FrameInput { placed: Vec::new(), held: None, aurora: None, ..frame.clone() };
@@ -159,6 +162,7 @@ impl Stand<'_> {
         times.parts.add(drawn.whole, &drawn.work);
         times.alone.push(alone.whole + simulation);
         times.processor.extend(processor);
+        self.stage.reuse(frame);
         Ok(())
     }
 

@@ -86,7 +86,7 @@ pub fn measure(moments: usize) -> Result<Sheet, ChartError> {
             for ((intervals, measured), width) in nodes.iter_mut().zip(WIDTHS) {
                 let seen = ImageExtent { span: 1.5 * REACH, width, pixel: pixel() };
                 let began = Instant::now();
-                let local_motion = black_box(LocalMotion::new(history, emission, REACH, &seen));
+                let local_motion = black_box(LocalMotion::new(history, emission, REACH, &seen, Vec::new()));
                 measured.seconds.push(began.elapsed().as_secs_f64());
                 *intervals += (local_motion.nodes.len() - 1) as f64 / moments as f64;
                 let instance = instance_of(history, emission, &local_motion);

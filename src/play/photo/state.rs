@@ -4,6 +4,8 @@ use bevy::prelude::*;
 
 use crate::play::menus::entries::PhotoKnob;
 use crate::play::photo::camera::{CameraMotion, FreeCamera};
+use crate::render::settings::Settings;
+use crate::render::stage::settings;
 use crate::scene::GameConfig;
 use crate::sim::snapshot::FrameCamera;
 
@@ -46,10 +48,20 @@ impl Photo {
         let mut config = config.clone();
         config.video.fov = self.camera.field_of_view.to_degrees();
         config.render.bloom = self.bloom;
-        let factor = self.stops.exp2();
-        config.render.exposure_key = (config.render.exposure_key * factor).clamp(0.01, 1.0);
-        config.disk.exposure_key = (config.disk.exposure_key * factor).clamp(0.01, 8.0);
+        config.render.exposure_key = self.exposed(config.render.exposure_key, 1.0);
+        config.disk.exposure_key = self.exposed(config.disk.exposure_key, 8.0);
         config
+    }
+
+    /// The renderer's settings by that configuration.
+    pub fn settings(&self, config: &GameConfig) -> Settings {
+        let exposure_key = self.exposed(config.render.exposure_key, 1.0) as f32;
+        Settings { bloom: self.bloom as f32, exposure_key, ..settings(config) }
+    }
+
+    /// The light that what shines is brought to: without stops `key`, never more than `most`.
+    fn exposed(&self, key: f64, most: f64) -> f64 {
+        (key * self.stops.exp2()).clamp(0.01, most)
     }
 
     /// Width and height of the saved picture in pixels; None for those of the window.

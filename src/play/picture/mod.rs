@@ -118,12 +118,11 @@ fn make_frame(
         return;
     };
     let config = &now.session.config;
-    let of_photo = photo.map(|photo| photo.config(config));
-    let config = of_photo.as_ref().unwrap_or(config);
     // Times of an earlier frame will do.
     current.0.ration_aurora(&statistics.passes);
     timed.0 = player.overlay || quality.hold().is_some() || current.0.rations_aurora();
-    let mut settings = Settings { rise, ..quality.turned(&settings(config)) };
+    let asked = photo.map_or_else(|| settings(config), |photo| photo.settings(config));
+    let mut settings = Settings { rise, ..quality.turned(&asked) };
     if is_cut(&mut last, sight(&now, *screen.get()), now.clock()) {
         // Another picture than that before: the exposure is at once what suits it. What was exposed before says nothing of how light a ship
         // should be.
@@ -133,6 +132,9 @@ fn make_frame(
     }
     settings.own_ship = shot.lit;
     settings.engines = Some([config.ship.thrust, config.enemy.thrust]);
+    if let Some(before) = frame.0.take() {
+        current.0.reuse(before);
+    }
     frame.0 = Some(current.0.frame(shot.camera, size, now.time(), &now.histories(), shot.hidden, &settings));
 }
 

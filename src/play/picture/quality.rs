@@ -136,8 +136,8 @@ pub(super) fn choose(
     quality.take_up(current.0.class());
     // The window's own display, if that is known.
     let own = windows.iter().find_map(|on| monitors.get(on.0).ok());
-    let shown: Vec<&Monitor> = own.map_or_else(|| monitors.iter().collect(), |own| vec![own]);
-    let rates = shown.into_iter().filter_map(|monitor| monitor.refresh_rate_millihertz).map(|rate| f64::from(rate) / 1000.0);
+    let shown = monitors.iter().filter(|monitor| own.is_none_or(|own| std::ptr::eq(own, *monitor)));
+    let rates = shown.filter_map(|monitor| monitor.refresh_rate_millihertz).map(|rate| f64::from(rate) / 1000.0);
     let hold = hold(&session.config, rates);
     let passes = statistics.passes.iter().map(|pass| f64::from(pass.1)).sum();
     let before = quality.rung;

@@ -35,15 +35,12 @@ impl StrokeCapacities {
         self.before(self.levels.div_ceil(2))
     }
 
-    /// These numbers for `images` images without any stroke.
-    pub fn empty(&self, images: u32) -> Vec<[u32; 4]> {
-        let image = |image: u32| {
-            let level = move |level: u32| {
-                let first = u64::from(image) * self.all() + self.before(level / 2 + level % 2);
-                [0, 1, CORNERS * first as u32, 0]
-            };
-            (0..PYRAMID).map(level).chain([[0; 4]; FOURS - PYRAMID as usize])
+    /// These numbers for an image, from 0, without any stroke.
+    pub fn empty(&self, image: u32) -> [[u32; 4]; FOURS] {
+        let level = |level: u32| {
+            let first = u64::from(image) * self.all() + self.before(level / 2 + level % 2);
+            [0, 1, CORNERS * first as u32, 0]
         };
-        (0..images).flat_map(image).collect()
+        std::array::from_fn(|four| if four < PYRAMID as usize { level(four as u32) } else { [0; 4] })
     }
 }

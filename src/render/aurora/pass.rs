@@ -158,7 +158,8 @@ impl Aurora {
             self.levels = Some(Levels::new(gpu, targets.size));
             replaced = true;
         }
-        self.images = frame.parts.iter().map(|part| pixels(*part, targets.size)).zip(frame.behind.iter().copied()).take(orders).collect();
+        self.images.clear();
+        self.images.extend(frame.parts.iter().map(|part| pixels(*part, targets.size)).zip(frame.behind.iter().copied()).take(orders));
         let widest = self.images.iter().map(|([.., width, height], _)| (*width).max(*height)).max();
         replaced |= self.ranges.prepare(device, &targets.depth, targets.size, widest.unwrap_or(0));
         if replaced {
@@ -166,7 +167,8 @@ impl Aurora {
         }
         gpu.queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
         gpu.queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&frame.instances[..orders]));
-        gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&capacities.empty(orders as u32)));
+        let empty: [_; ORDERS] = std::array::from_fn(|image| capacities.empty(image as u32));
+        gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&empty[..orders]));
         let tile = [0, 1].map(|axis| targets.size[axis].div_ceil(LIT_TILES[axis]) as f32 * 2.0 / targets.size[axis] as f32);
         for (buffer, colours) in self.colours.iter().zip(&frame.colours) {
             let rgb = |[x, y, z, _]: [f32; 4]| {
@@ -238,9 +240,9 @@ impl Aurora {
     }
 
     /// The images that are behind the disk, or the others.
-    pub fn images_behind(&self, behind: bool) -> Vec<u32> {
+    pub fn images_behind(&self, behind: bool) -> impl Iterator<Item = u32> {
         let all = 0..self.images();
-        all.zip(&self.images).filter(|(_, (_, is_behind))| *is_behind == behind).map(|(image, _)| image).collect()
+        all.zip(&self.images).filter(move |(_, (_, is_behind))| *is_behind == behind).map(|(image, _)| image)
     }
 
     /// Projects the middles of the parts of curtains through the lensing lookup.
@@ -274,8 +276,8 @@ impl Aurora {
 
     /// The textures in which light is added up, the coarsest first, with their levels.
     pub fn levels(&self) -> impl Iterator<Item = (u32, &wgpu::TextureView)> {
-        let lights = self.levels.iter().flat_map(|levels| &levels.lights);
-        (0..).zip(lights.take(self.capacities.levels as usize)).collect::<Vec<_>>().into_iter().rev()
+        let lights = self.levels.as_ref().map_or(&[][..], |levels| &levels.lights[..self.capacities.levels as usize]);
+        lights.iter().enumerate().rev().map(|(level, light)| (level as u32, light))
     }
 
     /// Adds up the strokes of one image in a level, after those of coarser levels. The finest level has the frame's depth.

@@ -24,6 +24,8 @@ const NEAR: f64 = 4.0;
 const SEARCH: u32 = 4;
 /// Screen coordinates of that grid, from −1 to 1.
 const ACROSS: [f64; 4] = [-0.9, -0.3, 0.3, 0.9];
+/// Points of a planet's image that are evaluated: directions from its centre, body axes.
+type Places = [Option<DVec3>; ACROSS.len() * ACROSS.len()];
 /// Coordinates of the corners of an icosahedron: (0, ±short, ±long) and cyclic permutations.
 const SHORT: f64 = 0.525_731_112_119_133_6;
 const LONG: f64 = 0.850_650_808_352_039_9;
@@ -61,26 +63,24 @@ impl ImageShift {
             began = (time - (away.length() - radius).max(0.0)).max(began);
         }
         let places = if near { on_grid(view.camera, aspect, &history.at(began), radius) } else { icosahedron() };
-        let seen: Vec<(DVec2, f64)> = places
-            .iter()
-            .filter_map(|place| {
-                // The position at the emission time of its own light, by the table's delays. Each step reduces the error to the planet's
-                // speed over c, a third or less.
-                let mut emission = began;
-                for _ in 0..if view.settings.light_delay { SEARCH } else { 0 } {
-                    let planet = history.at(emission);
-                    let position = planet.position + planet.attitude * *place * (HEIGHT * radius);
-                    emission = time - view.look(position, order, time - emission)?.1;
-                }
-                let body = moving(history, emission, *place * (HEIGHT * radius));
-                let (position, velocity) = body;
-                let ends = RayEnds::new(view.camera, position, order)?;
-                let outward = (position - history.at(emission).position).normalize();
-                let ratio = ends.ratio(view.camera, position, velocity)?;
-                let at = on_screen(view.camera, ends.look, aspect)?;
-                (near || ends.leaving.dot(outward) > 0.0).then_some((at, ratio))
-            })
-            .collect();
+        let seen = places.map(|place| {
+            let place = place?;
+            // The position at the emission time of its own light, by the table's delays. Each step reduces the error to the planet's
+            // speed over c, a third or less.
+            let mut emission = began;
+            for _ in 0..if view.settings.light_delay { SEARCH } else { 0 } {
+                let planet = history.at(emission);
+                let position = planet.position + planet.attitude * place * (HEIGHT * radius);
+                emission = time - view.look(position, order, time - emission)?.1;
+            }
+            let body = moving(history, emission, place * (HEIGHT * radius));
+            let (position, velocity) = body;
+            let ends = RayEnds::new(view.camera, position, order)?;
+            let outward = (position - history.at(emission).position).normalize();
+            let ratio = ends.ratio(view.camera, position, velocity)?;
+            let at = on_screen(view.camera, ends.look, aspect)?;
+            (near || ends.leaving.dot(outward) > 0.0).then_some((at, ratio))
+        });
         fitted(&seen)
     }
 
@@ -148,18 +148,19 @@ fn on_screen(camera: &Observer, look: DVec3, aspect: f64) -> Option<DVec2> {
     (seen.z < 0.0).then(|| DVec2::new(seen.x, seen.y / aspect) / (-seen.z * wide))
 }
 
-fn icosahedron() -> Vec<DVec3> {
+/// The corners of an icosahedron.
+fn icosahedron() -> Places {
     let signs = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
     let corner = |(a, b): (f64, f64)| DVec3::new(0.0, a * SHORT, b * LONG);
-    signs.iter().flat_map(|&sign| [corner(sign), corner(sign).zxy(), corner(sign).yzx()]).collect()
+    let corners = signs.map(|sign| [corner(sign), corner(sign).zxy(), corner(sign).yzx()]);
+    std::array::from_fn(|k| corners.as_flattened().get(k).copied())
 }
 
 /// Directions from the planet's centre (body axes) to the points at [`HEIGHT`] that are seen at the grid of the screen, along straight
 /// light: from near it is straight enough.
-fn on_grid(camera: &Observer, aspect: f64, planet: &Sample, radius: f64) -> Vec<DVec3> {
+fn on_grid(camera: &Observer, aspect: f64, planet: &Sample, radius: f64) -> Places {
     let wide = (0.5 * camera.field_of_view).tan();
     let from = camera.position - planet.position;
-    let points = ACROSS.iter().flat_map(|&x| ACROSS.map(|y| DVec3::new(x * wide, y * wide * aspect, -1.0)));
     let place = |seen: DVec3| {
         let look = camera.rain_direction(seen);
         // The nearest and the farthest root of |from + s·look| = reach.
@@ -172,28 +173,29 @@ fn on_grid(camera: &Observer, aspect: f64, planet: &Sample, radius: f64) -> Vec<
         let s = roots(HEIGHT * radius)?.into_iter().find(|&s| s > 0.0 && s < ground)?;
         Some(planet.attitude.inverse() * (from + look * s).normalize_or(DVec3::Z))
     };
-    points.filter_map(place).collect()
+    std::array::from_fn(|k| place(DVec3::new(ACROSS[k / 4] * wide, ACROSS[k % 4] * wide * aspect, -1.0)))
 }
 
 /// The linear function that fits the ratios at points on the screen best, by least squares.
-fn fitted(seen: &[(DVec2, f64)]) -> Option<ImageShift> {
-    let count = seen.len() as f64;
-    let mean = seen.iter().map(|(_, ratio)| ratio).sum::<f64>() / count;
-    if seen.is_empty() || !mean.is_finite() {
+fn fitted(seen: &[Option<(DVec2, f64)>]) -> Option<ImageShift> {
+    let seen = || seen.iter().flatten();
+    let count = seen().count() as f64;
+    let mean = seen().map(|(_, ratio)| ratio).sum::<f64>() / count;
+    if !mean.is_finite() {
         return None;
     }
-    let range = seen.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (_, ratio)| [low.min(*ratio), high.max(*ratio)]);
+    let range = seen().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (_, ratio)| [low.min(*ratio), high.max(*ratio)]);
     let row = |place: &DVec2| DVec3::new(1.0, place.x, place.y);
     let mut square = DMat3::ZERO;
     let mut right = DVec3::ZERO;
-    for (place, ratio) in seen {
+    for (place, ratio) in seen() {
         let row = row(place);
         square += DMat3::from_cols(row * row.x, row * row.y, row * row.z);
         right += row * *ratio;
     }
     // If the points lie on one line or close together, only the mean is known.
     let scale = square.y_axis.y.max(square.z_axis.z).max(1e-300);
-    let flat = seen.len() < 3 || square.determinant() < 1e-9 * count * scale * scale;
+    let flat = count < 3.0 || square.determinant() < 1e-9 * count * scale * scale;
     let plane = if flat { DVec3::new(mean, 0.0, 0.0) } else { square.inverse() * right };
     Some(ImageShift { middle: plane.x, slope: DVec2::new(plane.y, plane.z), range })
 }

@@ -149,7 +149,7 @@ impl PolygonPass {
             }
         }
         let most = gpu.device.limits().max_storage_buffer_binding_size;
-        self.geometry.prepare(gpu, BodyLists::new(&placed, None, input.settings.vertex_budget, most), None);
+        self.geometry.prepare(gpu, &mut BodyLists::new(&placed, None, input.settings.vertex_budget, most), None);
         self.turning.write(gpu, &turning);
     }
 

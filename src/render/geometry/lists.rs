@@ -5,7 +5,6 @@ use crate::render::gpu::types::placed::THIN;
 use crate::render::gpu::types::{CHUNK, Capacity, Chunk, Counters, HeldFrame, Instance, SeenVertex};
 use crate::render::instances::Placed;
 use crate::render::instances::held::HeldImages;
-use crate::render::instances::local_motion::MotionNode;
 use crate::render::models::ModelRange;
 
 /// Groups along the first dimension of a dispatch (65,535 is the limit).
@@ -18,6 +17,7 @@ pub struct BodyLists {
     pub(super) texels: Vec<[f32; 4]>,
     /// Of vertices, edges, triangles.
     pub(super) chunks: [Vec<Chunk>; 3],
+    fitted: Fitted,
     /// Groups to dispatch over them, if nothing is held.
     pub(super) dispatch: [[u32; 2]; 3],
     /// What is held, with the room that its images have.
@@ -39,9 +39,18 @@ impl BodyLists {
     /// `most` bytes. Where models do not fit, the smallest images are drawn by their coarsest stand-ins; where those do not, they are
     /// left out. Both are counted.
     pub fn new(placed: &[Placed], held: Option<HeldImages>, budget: u32, most: u64) -> BodyLists {
-        let fitted = Fitted::new(placed, vertex_limit(budget, most));
-        let mut instances: Vec<Instance> = Vec::with_capacity(placed.len());
-        let mut chunks: [Vec<Chunk>; 3] = Default::default();
+        let mut lists = BodyLists::default();
+        lists.make(placed, held, budget, most);
+        lists
+    }
+
+    /// Becomes [`BodyLists::new`] of these, in the memory that it has.
+    pub fn make(&mut self, placed: &[Placed], held: Option<HeldImages>, budget: u32, most: u64) {
+        let BodyLists { texels, chunks, fitted, .. } = self;
+        fitted.choose(placed, vertex_limit(budget, most));
+        texels.clear();
+        chunks.iter_mut().for_each(Vec::clear);
+        let fitted = &*fitted;
         let drawn = || {
             let finite = placed.iter().enumerate().filter(|(_, item)| item.instance.is_finite());
             finite.filter_map(|(number, item)| Some((item, fitted.model(number, item)?)))
@@ -49,38 +58,42 @@ impl BodyLists {
         let most_held = held.map(|held| held.most).unwrap_or_default();
         // States of edges lie behind those of all vertices.
         let all_vertices: u32 = drawn().map(|(_, model)| model.vertices[1]).sum();
+        let number_drawn = drawn().count();
         let vertices_end = end(all_vertices, most_held.vertices, vertex_limit(budget, most));
         // What is not finite is left out here; counted with what the shaders leave out.
         let refused = placed.iter().filter(|item| !item.instance.is_finite()).count() as u32;
         let calmed = placed.iter().filter(|item| item.calmed).count() as u32;
         let (mut vertices, mut edges, mut triangles) = (0, 0, 0);
-        for (item, model) in drawn() {
+        let mut thin_across = [false; 4];
+        // The nodes of each lie behind all instances, and it is told where.
+        let mut first_node = number_drawn * INSTANCE_TEXELS;
+        for (number, (item, model)) in (0..).zip(drawn()) {
             let mut instance = item.instance;
             (instance.first_seen, instance.first_state) = (vertices, vertices_end + edges);
             [instance.first_vertex, instance.vertex_count] = model.vertices;
             [instance.first_edge, instance.edge_count] = model.edges;
             [instance.first_triangle, instance.triangle_count] = model.triangles;
             instance.first_material = model.material;
-            let number = instances.len() as u32;
             for (list, count) in chunks.iter_mut().zip([model.vertices[1], model.edges[1], model.triangles[1]]) {
                 list.extend((0..count.div_ceil(CHUNK)).map(|chunk| Chunk { instance: number, first: chunk * CHUNK }));
             }
             vertices += model.vertices[1];
             edges += model.edges[1];
             triangles += model.triangles[1];
-            instances.push(instance);
+            instance.node_texel = first_node as u32;
+            first_node += item.nodes.as_flattened().len();
+            texels.extend_from_slice(bytemuck::cast_slice(std::slice::from_ref(&instance)));
+            if instance.flags & THIN != 0 {
+                let (order, crossings) = (instance.order as usize, instance.crossings);
+                let range = if crossings < 0.0 { order - 1..=order } else { crossings as usize..=crossings as usize };
+                thin_across[range].fill(true);
+            }
         }
-        let mut thin_across = [false; 4];
-        for instance in instances.iter().filter(|instance| instance.flags & THIN != 0) {
-            let (order, crossings) = (instance.order as usize, instance.crossings);
-            let range = if crossings < 0.0 { order - 1..=order } else { crossings as usize..=crossings as usize };
-            thin_across[range].fill(true);
-        }
+        drawn().for_each(|(item, _)| texels.extend_from_slice(item.nodes.as_flattened()));
         let dispatch = [0, 1, 2].map(|kind: usize| {
             let count = chunks[kind].len() as u32;
             [count.min(GROUPS), count.div_ceil(GROUPS)]
         });
-        let mut texels = instance_table(&mut instances, drawn().map(|(item, _)| &item.nodes[..]));
         if let Some(held) = held {
             // Instances begin at multiples of their size.
             texels.resize(texels.len().next_multiple_of(INSTANCE_TEXELS), [0.0; 4]);
@@ -101,31 +114,25 @@ impl BodyLists {
         let is_full = most_held.vertices > u64::from(vertices_end - vertices) || most_held.edges > u64::from(states_end - states);
         let [vertices_end, states_end] = [(vertices, vertices_end), (states, states_end)]
             .map(|(first, end): (u32, u32)| [if is_full { end - (end - first) / 8 } else { end }, end]);
-        BodyLists {
-            texels,
-            held: held.map(|held| HeldFrame { images_end, vertices_end, states_end, ..held.frame }),
-            held_chunks: most_held.chunks,
-            states: states_end[1],
-            // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
-            counters: Counters {
-                vertices,
-                model_vertices: vertices,
-                turn: 1,
-                caught: refused,
-                calmed,
-                simpler: fitted.simpler,
-                left_out: fitted.left_out,
-                images,
-                held_vertices: [vertices, vertices_end[0]],
-                held_states: [states, states_end[0]],
-                chunks: [0, 1, 2].map(|kind: usize| chunks[kind].len() as u32),
-                ..Counters::default()
-            },
-            chunks,
-            dispatch,
-            thin_across,
-            capacity: capacity_for(budget, vertices_end[1], end(triangles, most_held.triangles, most / INDEX_BYTES), most),
-        }
+        // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
+        self.counters = Counters {
+            vertices,
+            model_vertices: vertices,
+            turn: 1,
+            caught: refused,
+            calmed,
+            simpler: fitted.simpler,
+            left_out: fitted.left_out,
+            images,
+            held_vertices: [vertices, vertices_end[0]],
+            held_states: [states, states_end[0]],
+            chunks: [0, 1, 2].map(|kind: usize| chunks[kind].len() as u32),
+            ..Counters::default()
+        };
+        self.held = held.map(|held| HeldFrame { images_end, vertices_end, states_end, ..held.frame });
+        (self.held_chunks, self.states) = (most_held.chunks, states_end[1]);
+        (self.dispatch, self.thin_across) = (dispatch, thin_across);
+        self.capacity = capacity_for(budget, vertices_end[1], end(triangles, most_held.triangles, most / INDEX_BYTES), most);
     }
 
     /// Texels of the tables of instances and of chunks, with the room of what is held and what fills up its dispatches.
@@ -159,40 +166,44 @@ fn vertex_limit(budget: u32, most: u64) -> u64 {
 }
 
 /// Which model each image is drawn by, where all of them do not fit.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Fitted {
     /// By the image's number; empty where all fit.
     models: Vec<Option<ModelRange>>,
     /// Images that are drawn by their coarsest stand-in, and those that are left out.
     simpler: u32,
     left_out: u32,
+    /// Room for the numbers of all images.
+    smallest_first: Vec<usize>,
 }
 
 impl Fitted {
     /// For models of at most `room` vertices together.
-    fn new(placed: &[Placed], room: u64) -> Fitted {
+    fn choose(&mut self, placed: &[Placed], room: u64) {
+        (self.simpler, self.left_out) = (0, 0);
+        self.models.clear();
+        self.smallest_first.clear();
         let mut vertices: u64 = placed.iter().map(|item| u64::from(item.model.vertices[1])).sum();
         if vertices <= room {
-            return Fitted::default();
+            return;
         }
-        let mut fitted = Fitted { models: placed.iter().map(|item| Some(item.model)).collect(), ..Fitted::default() };
-        let mut smallest_first: Vec<usize> = (0..placed.len()).collect();
-        smallest_first.sort_by(|&a, &b| placed[a].width.total_cmp(&placed[b].width));
-        for &number in &smallest_first {
+        self.models.extend(placed.iter().map(|item| Some(item.model)));
+        self.smallest_first.extend(0..placed.len());
+        self.smallest_first.sort_unstable_by(|&a, &b| placed[a].width.total_cmp(&placed[b].width).then(a.cmp(&b)));
+        for &number in &self.smallest_first {
             let Placed { model, coarse, .. } = &placed[number];
             if vertices > room && coarse.vertices[1] < model.vertices[1] {
                 vertices -= u64::from(model.vertices[1] - coarse.vertices[1]);
-                fitted.models[number] = Some(*coarse);
-                fitted.simpler += 1;
+                self.models[number] = Some(*coarse);
+                self.simpler += 1;
             }
         }
-        for number in smallest_first {
+        for &number in &self.smallest_first {
             if vertices > room {
-                vertices -= fitted.models[number].take().map_or(0, |model| u64::from(model.vertices[1]));
-                fitted.left_out += 1;
+                vertices -= self.models[number].take().map_or(0, |model| u64::from(model.vertices[1]));
+                self.left_out += 1;
             }
         }
-        fitted
     }
 
     /// What an image is drawn by; None if it is left out.
@@ -210,18 +221,6 @@ fn capacity_for(budget: u32, vertices: u32, triangles: u32, most: u64) -> Capaci
     Capacity { vertices: vertices + budget, indices: 3 * indices as u32, work: budget / 10, thin: 3 * (budget / 3) }
 }
 
-/// The texels of the table of instances: the instances, then the nodes of each, whose place is told to it.
-fn instance_table<'a>(instances: &mut [Instance], nodes: impl Iterator<Item = &'a [MotionNode]>) -> Vec<[f32; 4]> {
-    let mut first = size_of_val(instances) / size_of::<[f32; 4]>();
-    let mut behind: Vec<[f32; 4]> = Vec::new();
-    for (instance, nodes) in instances.iter_mut().zip(nodes) {
-        instance.node_texel = first as u32;
-        behind.extend(nodes.as_flattened());
-        first += nodes.as_flattened().len();
-    }
-    [bytemuck::cast_slice(instances), &behind].concat()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -234,7 +233,8 @@ mod tests {
         let image = |width: f64| Placed { model, coarse, width, instance: Instance::default(), nodes: Vec::new(), calmed: false };
         let placed: Vec<Placed> = [3.0, 1.0, 2.0].map(image).into();
         let models = |room: u64| {
-            let fitted = Fitted::new(&placed, room);
+            let mut fitted = Fitted::default();
+            fitted.choose(&placed, room);
             let vertices = placed.iter().enumerate().map(|(k, item)| fitted.model(k, item).map_or(0, |model| model.vertices[1]));
             (vertices.collect::<Vec<_>>(), [fitted.simpler, fitted.left_out])
         };

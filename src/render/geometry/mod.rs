@@ -255,8 +255,9 @@ impl Geometry {
         self.groups = None;
     }
 
-    /// Uploads the lists of this frame, and makes room for what the stages make of them. `ground` is the aurora's light on its planet.
-    pub fn prepare(&mut self, gpu: &Gpu, lists: BodyLists, ground: Option<&GroundFrame>) {
+    /// Uploads the lists of this frame, and makes room for what the stages make of them. `ground` is the aurora's light on its planet. The
+    /// lists are kept: those of the frame before are given for them.
+    pub fn prepare(&mut self, gpu: &Gpu, lists: &mut BodyLists, ground: Option<&GroundFrame>) {
         let (device, capacity) = (&gpu.device, lists.capacity);
         let [instances, chunks @ ..] = lists.texels_with_room();
         let mut replaced = self.instances.reserve(device, instances);
@@ -280,7 +281,7 @@ impl Geometry {
         if let Some(held) = &lists.held {
             self.placing.write(gpu, held);
         }
-        self.lists = lists;
+        std::mem::swap(&mut self.lists, lists);
     }
 
     /// Makes the bind groups of a prepared frame, where buffers or the `models` are others than before.

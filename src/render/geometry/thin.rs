@@ -67,9 +67,9 @@ impl ThinLists {
         if replaced {
             self.groups = None;
         }
-        let triangles = (0..CROSSINGS).flat_map(|crossings| [0, 1, crossings * capacity, 0, 0]);
-        let draws: Vec<u32> = triangles.chain([6, 0, 0, 0]).collect();
-        gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&draws));
+        let triangles: [[u32; 5]; CROSSINGS as usize] = std::array::from_fn(|crossings| [0, 1, crossings as u32 * capacity, 0, 0]);
+        gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&triangles));
+        gpu.queue.write_buffer(&self.draws, CROSSINGS_END, bytemuck::cast_slice(&[6u32, 0, 0, 0]));
     }
 
     /// Makes the bind groups of a prepared frame, where buffers are others than before. `triangles` are those of the prepared geometry,

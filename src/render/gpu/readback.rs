@@ -147,7 +147,9 @@ impl DeferredCopy {
         if let (Some(went_well), Some(copy)) = (arrived, &self.copy) {
             self.waiting = None;
             if went_well {
-                self.latest = Some(copy.slice(..).get_mapped_range().to_vec());
+                let latest = self.latest.get_or_insert_default();
+                latest.clear();
+                latest.extend_from_slice(&copy.slice(..).get_mapped_range());
                 copy.unmap();
             }
         }

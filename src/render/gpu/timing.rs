@@ -263,8 +263,7 @@ impl Timing {
     fn receive(&mut self) {
         let Some(inner) = &mut self.inner else { return };
         let arrived = inner.waiting.as_ref().and_then(|(_, receive)| receive.try_recv().ok());
-        if let (Some(ok), Some((labels, _))) = (arrived, inner.waiting.as_ref().map(|w| (w.0.clone(), ()))) {
-            inner.waiting = None;
+        if let (Some(ok), Some((labels, _))) = (arrived, inner.waiting.take_if(|_| arrived.is_some())) {
             if ok {
                 let range = inner.mapped.slice(..).get_mapped_range();
                 let ticks: Vec<u64> =

@@ -60,16 +60,15 @@ impl InstanceView<'_> {
         let across = position - n * height;
         let distance = across.length();
         let turn = (0..PLACES).map(|k| 2.0 * PI * f64::from(k) / f64::from(PLACES)).map(f64::sin_cos);
-        let mut points: Vec<[f64; 2]> = turn.map(|(sine, cosine)| [height + reach * cosine, (distance + reach * sine).abs()]).collect();
-        let round = if reach < distance {
-            (reach / distance).asin()
+        let points = turn.map(|(sine, cosine)| [height + reach * cosine, (distance + reach * sine).abs()]);
+        let (round, on_axis) = if reach < distance {
+            ((reach / distance).asin(), None)
         } else {
             let half = (reach * reach - distance * distance).sqrt();
-            points.extend([[height - half, 0.0], [height + half, 0.0]]);
-            PI
+            (PI, Some([[height - half, 0.0], [height + half, 0.0]]))
         };
         let (mut low, mut high) = (PI, 0.0f64);
-        for [height, across] in points {
+        for [height, across] in points.chain(on_axis.into_iter().flatten()) {
             let nearer = (LEAST_RADIUS / height.hypot(across)).max(1.0);
             let [height, across] = [height * nearer, across * nearer];
             let (psi, _) = self.angle([height - camera.radius(), across, height], order, age)?;

@@ -17,6 +17,8 @@ pub type MotionNode = [[f32; 4]; 3];
 
 /// The fewest and the most times between the nodes of an image.
 const INTERVALS: (f64, f64) = (4.0, 48.0);
+/// The most nodes: up to twice those times where every second node of the history would be too few, and one more at either end.
+pub const MOST_NODES: usize = 100;
 /// So many times between nodes, times the root of the image's width in pixels, show a body that takes up its turn as quickly as a ship can
 /// to a hundredth of a pixel: with n times over its length 2R the turn is off by (c/4)/2R² · (2R/n)²/8 at most, and half the width is R.
 const PER_ROOT_PIXEL: f64 = 2.0;
@@ -73,8 +75,9 @@ impl LocalMotion {
     /// falls inside the horizon beside the camera: without it a ship of 0.16 r_s at r = 0.6 is off by 10⁻⁴ r_s, a pixel at a distance of a
     /// thirtieth of r_s. A Taylor series about T₀ would be worst at the ends, where it matters.
     ///
-    /// Nodes are at those of the history, or at every second or third, so that between two of them the turn is as even as it was flown.
-    pub fn new(history: &History, emission: f64, reach: f64, seen: &ImageExtent) -> LocalMotion {
+    /// Nodes are at those of the history, or at every second or third, so that between two of them the turn is as even as it was flown. They
+    /// come in place of what `nodes` holds.
+    pub fn new(history: &History, emission: f64, reach: f64, seen: &ImageExtent, nodes: Vec<MotionNode>) -> LocalMotion {
         // For bodies smaller than a thousandth of r_s differences would be lost in rounding, and no motion is visible.
         let w = reach.max(1e-3);
         let now = history.at(emission);
@@ -92,7 +95,7 @@ impl LocalMotion {
             spin: DVec3::ZERO,
             slack: 0.0,
             times: [0.0; 2],
-            nodes: Vec::new(),
+            nodes,
             strays: false,
             calmed: false,
         };
@@ -104,7 +107,7 @@ impl LocalMotion {
     fn go_straight_on(&mut self, attitude: DQuat, span: f64) {
         (self.acceleration, self.jerk, self.snap, self.force) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
         self.times = [-span, 2.0 * span];
-        self.nodes = at_rest(attitude);
+        at_rest(attitude, &mut self.nodes);
     }
 
     fn take_nodes(&mut self, history: &History, emission: f64, now: &Sample, reach: f64, seen: &ImageExtent) {
@@ -115,52 +118,59 @@ impl LocalMotion {
         let step = if apart < coarse { apart * (fine / apart).floor().max(1.0) } else { fine };
         let first = ((emission - seen.span - anchor) / step).floor();
         let last = ((emission + seen.span - anchor) / step).ceil().max(first + 1.0);
-        let mut times: Vec<f64> = (0..=(last - first) as usize).map(|k| anchor + (first + k as f64) * step).collect();
-        let mut samples: Vec<Sample> = times.iter().map(|time| history.at(*time)).collect();
+        let count = ((last - first) as usize).min(MOST_NODES - 1);
+        let time = |k: usize| anchor + (first + k as f64) * step;
+        let mut flown = [*now; MOST_NODES];
+        flown[..=count].iter_mut().enumerate().for_each(|(k, sample)| *sample = history.at(time(k)));
         // Nodes end where no body goes on: the singularity may lie within the time of what is seen of a ship that falls towards it.
-        let turns: Vec<f64> = samples.windows(2).map(|pair| rotation(pair[0].attitude, pair[1].attitude).length() / step).collect();
-        let is_wild = |k: &usize| !(turns[*k] * reach <= FASTEST && is_possible(&samples[*k], &samples[k + 1], reach, step));
-        let middle = times.partition_point(|time| *time <= emission).clamp(1, times.len() - 1) - 1;
-        let end = (middle..times.len() - 1).find(is_wild).unwrap_or(times.len() - 1);
-        let start = (0..middle).rev().find(is_wild).map_or(0, |k| k + 1);
-        self.calmed |= end == middle || times[start] > emission - reach.min(seen.span) || times[end] < emission + reach.min(seen.span);
+        let mut fastest = 0.0;
+        let mut is_wild = |k: &usize| {
+            let [earlier, later] = [&flown[*k], &flown[k + 1]];
+            let turn = rotation(earlier.attitude, later.attitude).length() / step;
+            let is_sound = turn * reach <= FASTEST && is_possible(earlier, later, reach, step);
+            if is_sound {
+                fastest = f64::max(fastest, turn);
+            }
+            !is_sound
+        };
+        let middle = (0..=count).filter(|k| time(*k) <= emission).count().clamp(1, count) - 1;
+        let end = (middle..count).find(&mut is_wild).unwrap_or(count);
+        let start = (0..middle).rev().find(&mut is_wild).map_or(0, |k| k + 1);
+        self.calmed |= end == middle || time(start) > emission - reach.min(seen.span) || time(end) < emission + reach.min(seen.span);
         if self.calmed {
             return self.go_straight_on(now.attitude, seen.span);
         }
-        let fastest = turns[start..end].iter().copied().fold(0.0, f64::max);
-        (times, samples) = (times[start..=end].to_vec(), samples[start..=end].to_vec());
-        let way = |local_motion: &LocalMotion, s: f64| {
-            now.position
-                + (now.velocity
-                    + (local_motion.acceleration + (local_motion.jerk + local_motion.snap * (0.25 * s)) * (s / 3.0)) * (0.5 * s))
-                    * s
+        // Each with its time after T₀.
+        let samples = || (start..=end).map(|k| (&flown[k], time(k) - emission));
+        let aside = |local_motion: &LocalMotion, (sample, s): (&Sample, f64)| {
+            let way =
+                now.velocity + (local_motion.acceleration + (local_motion.jerk + local_motion.snap * (0.25 * s)) * (s / 3.0)) * (0.5 * s);
+            sample.position - (now.position + way * s)
         };
-        let asides = |local_motion: &LocalMotion| -> Vec<DVec3> {
-            samples.iter().zip(&times).map(|(sample, time)| sample.position - way(local_motion, time - emission)).collect()
-        };
-        let farthest = |asides: &[DVec3]| asides.iter().map(|aside| aside.length()).fold(0.0, f64::max);
-        let mut beside = asides(self);
-        if farthest(&beside) > WILD * reach {
+        let force = self.force;
+        let pushed = |(sample, s): (&Sample, f64)| sample.momentum - now.momentum - force * s;
+        let farthest = |local_motion: &LocalMotion| samples().map(|at| aside(local_motion, at).length()).fold(0.0, f64::max);
+        let mut beside = farthest(self);
+        if beside > WILD * reach {
             (self.acceleration, self.jerk, self.snap) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
-            beside = asides(self);
+            beside = farthest(self);
         }
-        let pushed: Vec<DVec3> =
-            samples.iter().zip(&times).map(|(s, time)| s.momentum - now.momentum - self.force * (time - emission)).collect();
         // A momentum that is off by δ contracts a point's place by at most the reach times δ.
-        self.strays = farthest(&beside).max(farthest(&pushed) * reach) > STRAYS * seen.pixel;
-        let turns: Vec<DVec3> = samples.iter().map(|sample| rotation(now.attitude, sample.attitude)).collect();
-        let ends = [turns[0], turns[turns.len() - 1]];
-        self.spin = (ends[1] - ends[0]) / (times[times.len() - 1] - times[0]);
-        let uneven = turns.iter().zip(&times).map(|(turn, time)| turn.distance(self.spin * (time - emission))).fold(0.0, f64::max);
+        self.strays = beside.max(samples().map(|at| pushed(at).length()).fold(0.0, f64::max) * reach) > STRAYS * seen.pixel;
+        let turn = |k: usize| rotation(now.attitude, flown[k].attitude);
+        self.spin = (turn(end) - turn(start)) / (time(end) - time(start));
+        let uneven = samples().map(|(sample, s)| rotation(now.attitude, sample.attitude).distance(self.spin * s)).fold(0.0, f64::max);
         self.slack = uneven + fastest * reach;
-        self.times = [times[0] - emission, step];
+        self.times = [time(start) - emission, step];
+        let mut nodes = std::mem::take(&mut self.nodes);
         let mut before = now.attitude;
-        self.nodes = (samples.iter().zip(beside).zip(pushed))
-            .map(|((sample, aside), pushed)| {
-                before = if sample.attitude.dot(before) < 0.0 { -sample.attitude } else { sample.attitude };
-                [before.as_quat().to_array(), aside.as_vec3().extend(0.0).to_array(), pushed.as_vec3().extend(0.0).to_array()]
-            })
-            .collect();
+        nodes.clear();
+        nodes.extend(samples().map(|(sample, s)| {
+            before = if sample.attitude.dot(before) < 0.0 { -sample.attitude } else { sample.attitude };
+            let [aside, pushed] = [aside(self, (sample, s)), pushed((sample, s))].map(|off| off.as_vec3().extend(0.0).to_array());
+            [before.as_quat().to_array(), aside, pushed]
+        }));
+        self.nodes = nodes;
     }
 }
 
@@ -224,7 +234,8 @@ fn carried(instance: &Instance, rest: Vec3, turning: Vec3, s: f32, pushed: Vec3)
     (way + contracted(rest), velocity + contracted(turning))
 }
 
-/// A body that goes straight on from a sample of its history without turning: for one whose own motion has no numbers.
-pub fn at_rest(attitude: DQuat) -> Vec<MotionNode> {
-    vec![[attitude.as_quat().to_array(), [0.0; 4], [0.0; 4]]; 2]
+/// Has a body go straight on from a sample of its history without turning: one whose own motion has no numbers.
+pub fn at_rest(attitude: DQuat, nodes: &mut Vec<MotionNode>) {
+    nodes.clear();
+    nodes.extend([[attitude.as_quat().to_array(), [0.0; 4], [0.0; 4]]; 2]);
 }

@@ -15,7 +15,7 @@ pub use view::InstanceView;
 use crate::lensing::lookup::OLD;
 use crate::render::gpu::types::Instance;
 use crate::render::gpu::types::placed::{MINUS, NARROW_RING, STATIC, THIN, TWO_SIDED};
-use crate::render::instances::local_motion::{ImageExtent, LocalMotion, MotionNode};
+use crate::render::instances::local_motion::{ImageExtent, LocalMotion, MOST_NODES, MotionNode};
 use crate::render::instances::view::{Extent, MARGIN};
 use crate::render::models::ModelRange;
 use crate::render::settings::Settings;
@@ -91,7 +91,7 @@ impl DrawnObject<'_> {
 }
 
 /// An object in one order, ready for the GPU.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Placed {
     /// Its model.
     pub model: ModelRange,
@@ -107,15 +107,52 @@ pub struct Placed {
     pub calmed: bool,
 }
 
-/// The instances of an object in orders 1 to `orders`, seen by `camera` at the clock's `time`. An order in which the centre is not seen
-/// (it has not been reached by light yet, or never will) is left out.
+impl Clone for Placed {
+    fn clone(&self) -> Self {
+        Placed { nodes: self.nodes.clone(), ..*self }
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        let mut nodes = std::mem::take(&mut self.nodes);
+        nodes.clone_from(&other.nodes);
+        *self = Placed { nodes, ..*other };
+    }
+}
+
+/// The images of a frame as they are placed, in the memory of earlier ones.
+#[derive(Debug, Default)]
+pub struct PlacedList {
+    /// Those that are placed.
+    pub placed: Vec<Placed>,
+    /// Room for nodes.
+    spare: Vec<Vec<MotionNode>>,
+}
+
+impl PlacedList {
+    /// Begins anew in the memory of images that are not needed any more. The first of those to come gets the room of the first.
+    pub fn reuse(&mut self, mut old: Vec<Placed>) {
+        self.spare.extend(old.drain(..).rev().map(|image| image.nodes).filter(|nodes| nodes.capacity() > 0));
+        self.placed = old;
+    }
+}
+
+/// The images that [`place`] adds for one object.
+pub fn instances_of(view: &InstanceView, time: f64, object: &DrawnObject, orders: u32) -> Vec<Placed> {
+    let mut list = PlacedList::default();
+    place(&mut list, view, time, object, orders);
+    list.placed
+}
+
+/// Adds the instances of an object in orders 1 to `orders`, seen by `camera` at the clock's `time`, and gives them. An order in which the
+/// centre is not seen (it has not been reached by light yet, or never will) is left out.
 ///
 /// A camera inside the horizon sees a static body inside twice: by light of E > 0 and by light of E < 0, which left at two different times.
 /// The worldline of a moving body crosses the camera's past light cone once, on one side or the other; each vertex finds out which.
-pub fn instances_of(view: &InstanceView, time: f64, object: &DrawnObject, orders: u32) -> Vec<Placed> {
+pub fn place<'l>(list: &'l mut PlacedList, view: &InstanceView, time: f64, object: &DrawnObject, orders: u32) -> &'l mut [Placed] {
     let camera = view.camera;
     let settings = view.settings;
-    let image = |order: Order, branch: Branch| {
+    let (first, PlacedList { placed, spare }) = (list.placed.len(), list);
+    let mut image = |order: Order, branch: Branch| {
         let (seen, position, age) = match object.motion {
             // From inside the horizon higher orders show only what is outside of it.
             ObjectMotion::Static { position, .. } if order.number() > 1 && position.length() + object.reach < 1.0 => return None,
@@ -135,7 +172,7 @@ pub fn instances_of(view: &InstanceView, time: f64, object: &DrawnObject, orders
         }
         let (mut instance, local_motion, longer) = match (object.motion, &seen) {
             (ObjectMotion::Static { attitude, .. }, _) => (static_instance(camera, position, attitude, object), None, 1.0),
-            (ObjectMotion::Flying(history), Some(seen)) => flying(view, history, seen, time, width, object),
+            (ObjectMotion::Flying(history), Some(seen)) => flying(view, history, seen, time, width, object, spare),
             (ObjectMotion::Flying(_), None) => return None,
         };
         (instance.order, instance.object) = (u32::from(order.number()), object.id);
@@ -161,7 +198,7 @@ pub fn instances_of(view: &InstanceView, time: f64, object: &DrawnObject, orders
         if let (Some(seen), false) = (&seen, has_numbers) {
             // Its stand-in, straight on.
             (model, calmed) = (object.coarse, true);
-            nodes = local_motion::at_rest(seen.sample.attitude);
+            local_motion::at_rest(seen.sample.attitude, &mut nodes);
             straight_on(&mut instance);
         }
         Some(Placed { model, coarse: object.coarse, width, instance, nodes, calmed })
@@ -172,7 +209,8 @@ pub fn instances_of(view: &InstanceView, time: f64, object: &DrawnObject, orders
     };
     let second = folded.then(|| image(Order::ALL[0], Branch::Minus)).flatten();
     let orders = orders.min(settings.method.orders);
-    Order::ALL.into_iter().take(orders as usize).filter_map(|order| image(order, Branch::Plus)).chain(second).collect()
+    placed.extend(Order::ALL.into_iter().take(orders as usize).filter_map(|order| image(order, Branch::Plus)).chain(second));
+    &mut placed[first..]
 }
 
 /// Says how strictly the chords of an image `width` pixels wide are held to their curves, and whether it is a thin one or a narrow ring.
@@ -304,7 +342,7 @@ const ACCELERATES: f64 = 1.5;
 const MOST_SPAN: f64 = 8.0;
 
 /// The instance of a body that is seen by this light at T = `time`; its motion, and by what factor its points are drawn out. Its image is
-/// `width` pixels wide.
+/// `width` pixels wide; `spare` is room for nodes.
 fn flying(
     view: &InstanceView,
     history: &History,
@@ -312,6 +350,7 @@ fn flying(
     time: f64,
     width: f64,
     object: &DrawnObject,
+    spare: &mut Vec<Vec<MotionNode>>,
 ) -> (Instance, Option<LocalMotion>, f64) {
     let camera = view.camera;
     let (emission, sample) = (seen.time, &seen.sample);
@@ -343,8 +382,9 @@ fn flying(
     if still {
         return (instance, None, out.longer);
     }
-    let local_motion =
-        LocalMotion::new(history, emission, object.reach, &ImageExtent { span: out.span, width, pixel: view.pixel * out.path });
+    let extent = ImageExtent { span: out.span, width, pixel: view.pixel * out.path };
+    let nodes = spare.pop().unwrap_or_else(|| Vec::with_capacity(MOST_NODES));
+    let local_motion = LocalMotion::new(history, emission, object.reach, &extent, nodes);
     let [first_node, step] = local_motion.times.map(|time| time as f32);
     let instance = Instance {
         acceleration: numbers(local_motion.acceleration),

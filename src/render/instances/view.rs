@@ -97,11 +97,9 @@ impl InstanceView<'_> {
         let low_side = if l < 1.0 { (r - reach).max(l + 0.01 * (r - l)) } else { (r - reach).max(1.001) };
         let points = [(r, phi), (r, phi - half), (r, phi + half), (low_side, phi), (r + reach, phi)];
         // If a part of the object is not seen, its image may end anywhere.
-        let Some(around) = points.map(|(r, phi)| seen(r, phi)).into_iter().collect::<Option<Vec<_>>>() else {
-            return anywhere;
-        };
-        let (centre, path) = around[0];
-        let (low, high) = around.iter().fold((centre, centre), |(low, high), &(psi, _)| (low.min(psi), high.max(psi)));
+        let around = points.map(|(r, phi)| seen(r, phi));
+        let Some((centre, path)) = around[0].filter(|_| around.iter().all(Option::is_some)) else { return anywhere };
+        let (low, high) = around.iter().flatten().fold((centre, centre), |(low, high), &(psi, _)| (low.min(psi), high.max(psi)));
         let across = position - n * position.dot(n);
         let distance = across.length();
         // Half its extent in azimuth round the axis: a ball that meets the axis is seen all round.

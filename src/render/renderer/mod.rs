@@ -30,6 +30,7 @@ use crate::render::disk::types::DiskCounters;
 use crate::render::disk::{DiskPasses, DrawnDisk};
 use crate::render::frame::{FrameInput, blackbody_table};
 use crate::render::geometry::Geometry;
+use crate::render::geometry::lists::BodyLists;
 use crate::render::geometry::thin::ThinLists;
 use crate::render::gpu::layout::{Slot, TableTexture, buffer, layout, storage};
 use crate::render::gpu::library::Worldlines;
@@ -93,6 +94,8 @@ pub struct Renderer {
     slices: Slices,
     /// The frame that is planned and not yet prepared.
     plan: Option<FramePlan>,
+    /// Its bodies.
+    bodies: BodyLists,
     /// The method that the passes project by.
     method: Method,
     disk: Option<DiskPasses>,
@@ -180,6 +183,7 @@ impl Renderer {
             frame_group: None,
             slices: Slices::default(),
             plan: None,
+            bodies: BodyLists::default(),
             method: Method::default(),
             disk: None,
             has_disk: false,

@@ -3,7 +3,6 @@
 use crate::lensing::{Slice, Table};
 
 use crate::lensing::methods::Method;
-use crate::render::geometry::lists::BodyLists;
 use crate::render::gpu::types;
 use crate::render::sky::table::{SkyTables, straight_sky_table};
 
@@ -14,8 +13,6 @@ pub(super) struct FramePlan {
     pub size: [u32; 2],
     /// The uniform, but for what was on the screen before.
     pub uniform: types::Frame,
-    /// The objects.
-    pub bodies: BodyLists,
 }
 
 /// The tables at one radius of the camera, by one method; kept until these change.

@@ -3,7 +3,6 @@
 use std::time::Instant;
 
 use crate::render::frame::{FrameInput, uniform};
-use crate::render::geometry::lists::BodyLists;
 use crate::render::gpu::layout::bind;
 use crate::render::gpu::targets::Targets;
 use crate::render::post_process::upscale::drawn_size;
@@ -34,21 +33,21 @@ impl Renderer {
         let begin = self.timing.worked("view of the disk", begin);
         let most = self.gpu.device.limits().max_storage_buffer_binding_size;
         let held = input.held.and_then(|flags| self.geometry.held_images(camera, &input.settings, flags));
-        let bodies = BodyLists::new(&input.placed, held, input.settings.vertex_budget, most);
-        let mut uniform = uniform(input, size, bodies.capacity);
+        self.bodies.make(&input.placed, held, input.settings.vertex_budget, most);
+        let mut uniform = uniform(input, size, self.bodies.capacity);
         if let Some(disk) = self.disk() {
             uniform.exposure_key = disk.disk().config.exposure_key as f32;
             uniform.disk_indices = [1; 4];
         }
         self.timing.worked("lists of bodies", begin);
-        self.plan = Some(FramePlan { size, uniform, bodies });
+        self.plan = Some(FramePlan { size, uniform });
         true
     }
 
     /// Uploads the planned frame of this input, and gives buffers, textures and targets the sizes that it needs. Without a plan nothing is
     /// done.
     pub fn prepare_resources(&mut self, input: &FrameInput) {
-        let Some(FramePlan { size, mut uniform, bodies }) = self.plan.take() else { return };
+        let Some(FramePlan { size, mut uniform }) = self.plan.take() else { return };
         self.make_targets(size);
         let begin = Instant::now();
         if let Some(slice) = self.slices.slice.as_ref().filter(|_| std::mem::take(&mut self.slices.are_new)) {
@@ -70,7 +69,7 @@ impl Renderer {
         }
         let begin = self.timing.worked("view of the disk", begin);
         let ground = input.aurora.as_ref().and_then(|aurora| aurora.ground.as_ref());
-        self.geometry.prepare(&self.gpu, bodies, ground);
+        self.geometry.prepare(&self.gpu, &mut self.bodies, ground);
         if self.geometry.has_thin() {
             self.thin.prepare(&self.gpu, self.geometry.capacity().thin, size);
         }

@@ -274,7 +274,7 @@ fn light_crosses_the_plane_of_the_disk_where_its_ray_does() {
 fn rooms_of_strokes_do_not_overlap() {
     for (finest, levels, images) in [(8, 1, 3), (800, PYRAMID, 2), (64, 4, 3)] {
         let capacities = StrokeCapacities { finest, levels };
-        let numbers = capacities.empty(images);
+        let numbers: Vec<[u32; 4]> = (0..images).flat_map(|image| capacities.empty(image)).collect();
         assert_eq!(16 * numbers.len() as u64, u64::from(images) * DRAWS_BYTES);
         let mut after = 0;
         for image in numbers.chunks(FOURS) {

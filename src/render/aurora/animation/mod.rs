@@ -17,7 +17,7 @@ use crate::render::aurora::ration::Ration;
 use crate::render::aurora::shift::ImageShift;
 use crate::render::aurora::{AuroraSettings, BOTH_POLES, LINEAR, Segment, occlusion, sight};
 use crate::render::gpu::types::Instance;
-use crate::render::instances::{DrawnObject, InstanceView, ObjectMotion, instances_of};
+use crate::render::instances::{DrawnObject, InstanceView, ObjectMotion, PlacedList, place};
 use crate::render::models::ModelRange;
 use crate::scene::aurora::curtains::curtains;
 use crate::scene::aurora::dipole::PLANET_RADIUS;
@@ -59,7 +59,7 @@ const KILO_COLLISIONS: f64 = 6.2415e8 / 0.035 / 1e9;
 const MOST_STROKES: usize = 1 << 20;
 
 /// What a frame shows of the aurora.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct AuroraFrame {
     /// Counts and numbers for the shaders.
     pub settings: AuroraSettings,
@@ -79,6 +79,26 @@ pub struct AuroraFrame {
     pub falls: Arc<Vec<f32>>,
     /// The light of the curtains on the ground, if the planet is wide enough to show it.
     pub ground: Option<GroundFrame>,
+}
+
+impl Clone for AuroraFrame {
+    fn clone(&self) -> Self {
+        let mut copy = AuroraFrame::default();
+        copy.clone_from(self);
+        copy
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        self.settings = other.settings;
+        self.instances.clone_from(&other.instances);
+        self.parts.clone_from(&other.parts);
+        self.behind.clone_from(&other.behind);
+        self.colours.clone_from(&other.colours);
+        self.segments.clone_from(&other.segments);
+        self.rows.clone_from(&other.rows);
+        self.falls.clone_from(&other.falls);
+        self.ground.clone_from(&other.ground);
+    }
 }
 
 /// The curtains of a planet, as they move.
@@ -114,15 +134,25 @@ pub struct AuroraAnimation {
     offset: f64,
     /// The pace before it was changed, until the next frame.
     old_pace: Option<f64>,
+    room: Room,
+}
+
+/// Memory that frames use again.
+#[derive(Debug, Default)]
+struct Room {
+    /// A frame that is not shown any more.
+    frame: Option<AuroraFrame>,
+    placed: PlacedList,
+    /// See [`Curtains::part`].
+    weights: Vec<f64>,
 }
 
 /// The planet's images that show the aurora.
-#[derive(Default)]
 struct Images {
     /// What is drawn of each.
     frame: AuroraFrame,
     /// The order of each, and the T at which light left the planet's centre for it.
-    departures: Vec<(Order, f64)>,
+    departures: [(Order, f64); Order::ALL.len()],
     /// The width of the widest, pixels.
     widest: f64,
     /// A number of chords to keep, where it was found anew.
@@ -165,6 +195,7 @@ impl AuroraAnimation {
             chords: None,
             offset: 0.0,
             old_pace: None,
+            room: Room::default(),
         })
     }
 
@@ -206,6 +237,11 @@ impl AuroraAnimation {
         self.config.share < 1.0
     }
 
+    /// Makes the next frame in the memory of this one, which is not shown any more.
+    pub fn reuse(&mut self, frame: AuroraFrame) {
+        self.room.frame = Some(frame);
+    }
+
     /// The aurora in the frame at T = `time`. None while it is out of sight or too small to see; then nothing is simulated. `back` is how
     /// far back light comes from, in r_s/c.
     pub fn frame(&mut self, view: &InstanceView, time: f64, back: f64, orders: u32) -> Option<AuroraFrame> {
@@ -219,6 +255,7 @@ impl AuroraAnimation {
     fn frame_of(&mut self, globe: &PlanetView, orders: u32) -> Option<AuroraFrame> {
         let mut images = self.images(globe, orders);
         if images.frame.instances.is_empty() {
+            self.reuse(images.frame);
             return None;
         }
         if let Some(pace) = self.old_pace.take() {
@@ -234,11 +271,15 @@ impl AuroraAnimation {
         frame.ground = self.ground(midnight, ahead, images.widest);
         frame.rows = self.rows.clone();
         frame.falls = self.falls.table.clone();
-        (frame.settings.streaks > 0).then_some(images.frame)
+        if frame.settings.streaks == 0 {
+            self.reuse(images.frame);
+            return None;
+        }
+        Some(images.frame)
     }
 
     /// The planet's images that show the aurora, with the colours of each.
-    fn images(&self, globe: &PlanetView, orders: u32) -> Images {
+    fn images(&mut self, globe: &PlanetView, orders: u32) -> Images {
         let &PlanetView { view, time, history, distance, .. } = globe;
         let nothing = ModelRange::default();
         let object = DrawnObject {
@@ -251,8 +292,15 @@ impl AuroraAnimation {
             id: 0,
             light: Illumination::default(),
         };
-        let mut images = Images::default();
-        for placed in instances_of(view, time, &object, orders) {
+        let mut frame = self.room.frame.take().unwrap_or_default();
+        frame.settings = AuroraSettings::default();
+        frame.instances.clear();
+        frame.parts.clear();
+        frame.behind.clear();
+        frame.colours.clear();
+        let mut images = Images { frame, departures: [(Order::ALL[0], 0.0); Order::ALL.len()], widest: 0.0 };
+        let mut list = std::mem::take(&mut self.room.placed);
+        for placed in place(&mut list, view, time, &object, orders) {
             let instance = placed.instance;
             let Some(order) = Order::new(instance.order as u8) else { continue };
             let position = DVec3::from_array(instance.position.map(f64::from));
@@ -267,8 +315,8 @@ impl AuroraAnimation {
                 let whole = [0.0, 0.0, 1.0, 1.0];
                 let seen_on = |aspect| if near { whole } else { extent.part_of_screen(view.camera, aspect) };
                 images.widest = images.widest.max(width);
-                images.departures.push((order, began));
                 let frame = &mut images.frame;
+                images.departures[frame.instances.len()] = (order, began);
                 frame.parts.push(view.aspect.map_or(whole, seen_on));
                 let bends = view.settings.method.bends;
                 frame.behind.push(self.disk.is_some_and(|disk| occlusion::is_behind(view.camera, position, order, bends, disk)));
@@ -276,6 +324,9 @@ impl AuroraAnimation {
                 frame.instances.push(instance);
             }
         }
+        let old = std::mem::take(&mut list.placed);
+        list.reuse(old);
+        self.room.placed = list;
         images
     }
 
@@ -298,7 +349,7 @@ impl AuroraAnimation {
 
     /// Puts the curtains as they are now into a frame, but for midnight: their parts, and what shaders need to know of the streaks. The
     /// newest row is `ahead` (s).
-    fn draw_streaks(&self, images: &mut Images, globe: &PlanetView, ahead: f64) {
+    fn draw_streaks(&mut self, images: &mut Images, globe: &PlanetView, ahead: f64) {
         let Some(newest) = &self.newest else { return };
         let curtains = Curtains {
             config: &self.config,
@@ -309,7 +360,8 @@ impl AuroraAnimation {
             ration: self.ration.part() * f64::from(globe.view.settings.streaks),
             collisions: self.collisions(),
         };
-        let segments = curtains.segments(globe);
+        let (weights, segments) = (&mut self.room.weights, &mut images.frame.segments);
+        curtains.part(globe, weights, segments);
         let streaks = segments.last().map_or(0, |segment| segment.first_streak + segment.streaks);
         let mut flags = if self.config.walk == "linear" { LINEAR } else { 0 };
         if curtains.both {
@@ -324,17 +376,16 @@ impl AuroraAnimation {
             heights: self.falls.ends.map(|ends| ends.map(f64::from)),
         };
         let middle = |segment: &Segment, wait: f64| self.rows.middle_of(segment, wait + ahead);
+        let departures = &images.departures[..images.frame.instances.len()];
         let places = [globe.view.camera.position, globe.position];
-        let so_many = |count| Chords::new(count, places, self.planet.radius, globe.view.pixel, &images.departures);
-        let chords = self.chords.and_then(|chords| chords.kept(&so_many(0), &segments)).unwrap_or_else(|| {
-            let count = bend.chords(&segments, &newest.places, middle, &images.departures, flags);
-            // A picture that is made once does not depend on those before.
-            images.chords = self.watched.then(|| so_many(count));
-            count
-        });
+        let so_many = |count| Chords::new(count, places, self.planet.radius, globe.view.pixel, departures);
+        let kept = self.chords.and_then(|chords| chords.kept(&so_many(0), segments));
+        let chords = kept.unwrap_or_else(|| bend.chords(segments, &newest.places, middle, departures, flags));
+        // A picture that is made once does not depend on those before.
+        images.chords = (self.watched && kept.is_none()).then(|| so_many(chords));
         let parts = curtains.parts(globe);
         let capacity = (streaks as usize * parts as usize).min(MOST_STROKES);
-        let levels = curtains.levels(globe, &segments, self.planet.radius * REACH);
+        let levels = curtains.levels(globe, segments, self.planet.radius * REACH);
         let clock = (globe.time * self.config.pace).rem_euclid(RAYS_PERIOD);
         let [[green_top, green_foot], [red_top, red_foot]] = self.falls.ends;
         images.frame.settings = AuroraSettings {
@@ -358,7 +409,6 @@ impl AuroraAnimation {
             red_top,
             red_foot,
         };
-        images.frame.segments = segments;
     }
 
     /// Brings the curtains to the time `now` (s); returns by how much the newest row is ahead of it.

@@ -89,28 +89,26 @@ impl Curtains<'_> {
         starts.map(|(curve, window)| [window[0], window[1] - 1].map(|node| node + 2 * curve + 1))
     }
 
-    /// Length on the screen of each pair of nodes, in pixels, as if space were flat; less where strokes are wide. And all together, at all
-    /// poles. Distances below 100 km, the height of the aurora, count as 100 km.
-    fn weights(&self, globe: &PlanetView) -> (Vec<f64>, f64) {
+    /// Puts the length on the screen of each pair of nodes, in pixels, as if space were flat, less where strokes are wide, into `weights`,
+    /// and gives all together, at all poles. Distances below 100 km, the height of the aurora, count as 100 km.
+    fn weigh(&self, globe: &PlanetView, weights: &mut Vec<f64>) -> f64 {
         let scale = globe.radius / PLANET_RADIUS;
         // In km of the planet, in the dipole's axes.
         let eye = globe.attitude.inverse() * (globe.view.camera.position - globe.position) / scale;
         let nodes = self.places.points.iter().zip(&self.places.apart);
-        let weights: Vec<f64> = nodes
-            .map(|(point, apart)| {
-                let per_pixel = (*point - eye).length().max(NEAREST) * globe.view.pixel;
-                let sigma = self.config.radius / per_pixel;
-                apart / per_pixel * WIDE / sigma.max(WIDE)
-            })
-            .collect();
-        let total = self.spans().map(|[first, last]| weights[first..last].iter().sum::<f64>()).sum::<f64>() * f64::from(self.poles());
-        (weights, total)
+        weights.clear();
+        weights.extend(nodes.map(|(point, apart)| {
+            let per_pixel = (*point - eye).length().max(NEAREST) * globe.view.pixel;
+            let sigma = self.config.radius / per_pixel;
+            apart / per_pixel * WIDE / sigma.max(WIDE)
+        }));
+        self.spans().map(|[first, last]| weights[first..last].iter().sum::<f64>()).sum::<f64>() * f64::from(self.poles())
     }
 
-    /// Parts of the curtains, each with as many streaks as its length on the screen asks for.
-    pub fn segments(&self, globe: &PlanetView) -> Vec<Segment> {
+    /// Puts the parts of the curtains into `segments`, each with as many streaks as its length on the screen asks for; `weights` is room.
+    pub fn part(&self, globe: &PlanetView, weights: &mut Vec<f64>, segments: &mut Vec<Segment>) {
         let poles = f64::from(self.poles());
-        let (weights, total) = self.weights(globe);
+        let total = self.weigh(globe, weights);
         let per_pixel = PER_PIXEL * (globe.pixels / FULL_PIXELS).clamp(0.25, 1.0);
         let wanted = (per_pixel * total * globe.magnification()).min(f64::from(self.config.streaks)) * self.ration;
         // Where few streaks are wanted, several pairs of nodes make one part.
@@ -118,7 +116,7 @@ impl Curtains<'_> {
         let nodes = weights.len();
         let stride =
             ((f64::from(least) * nodes as f64 / wanted.max(1.0)).ceil() as usize).max(nodes.div_ceil(MOST_SEGMENTS)).clamp(1, MOST_PAIRS);
-        let mut segments = Vec::new();
+        segments.clear();
         let mut first = 0;
         for (([first_of_curve, last], curve), &length) in self.spans().zip(self.curves).zip(&self.layout.lengths) {
             let pairs = last - first_of_curve;
@@ -146,7 +144,6 @@ impl Curtains<'_> {
                 k += span;
             }
         }
-        segments
     }
 
     /// Parts that each streak is drawn in.
