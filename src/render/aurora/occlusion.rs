@@ -9,20 +9,21 @@ use crate::spacetime::light::{Branch, Order, join};
 /// Steps of the integration, in radians: the radius at which light crosses the plane is right to a millionth.
 const STEP: f64 = 0.02;
 
-/// Whether the disk between two radii is in front of the position as seen in this order: whether light from there crosses the plane z = 0
-/// between them on its way to the camera. `bends` is false in flat space.
-pub fn is_behind(camera: &Observer, position: DVec3, order: Order, bends: bool, [inner, outer]: [f64; 2]) -> bool {
+/// Tells the radii, in r_s, at which light from `position` crosses the plane z = 0 on its way to the camera; `bends` is false in flat space.
+pub fn crossings(camera: &Observer, position: DVec3, order: Order, bends: bool, mut tell: impl FnMut(f64)) {
     let (l, r) = (camera.radius(), position.length());
-    let disk = inner..outer;
     if !bends {
         let part = camera.position.z / (camera.position.z - position.z);
-        return (0.0..1.0).contains(&part) && disk.contains(&camera.position.lerp(position, part).length());
+        if (0.0..1.0).contains(&part) {
+            tell(camera.position.lerp(position, part).length());
+        }
+        return;
     }
     let n = camera.position / l;
     let across = position - n * position.dot(n);
     let side = across.try_normalize().unwrap_or_else(|| n.any_orthonormal_vector()) * if order.flips() { -1.0 } else { 1.0 };
     let swept = order.swept(across.length().atan2(position.dot(n)).max(1e-12));
-    let Some(ray) = join(1.0 / r, swept, 1.0 / l, Branch::Plus) else { return false };
+    let Some(ray) = join(1.0 / r, swept, 1.0 / l, Branch::Plus) else { return };
     // The ray is at the angle Φ in the direction n cos Φ + side sin Φ; followed backwards from the camera: u″ = 3u²/2 − u.
     let height = |angle: f64| n.z * angle.cos() + side.z * angle.sin();
     let steps = (swept / STEP).ceil().max(1.0);
@@ -41,11 +42,15 @@ pub fn is_behind(camera: &Observer, position: DVec3, order: Order, bends: bool, 
         let high = height(f64::from(k + 1) * step);
         if low * high < 0.0 {
             let part = low / (low - high);
-            if disk.contains(&(1.0 / (before + (u - before) * part))) {
-                return true;
-            }
+            tell(1.0 / (before + (u - before) * part));
         }
         low = high;
     }
-    false
+}
+
+/// Whether the disk between two radii is in front of the position as seen in this order.
+pub fn is_behind(camera: &Observer, position: DVec3, order: Order, bends: bool, [inner, outer]: [f64; 2]) -> bool {
+    let mut is_behind = false;
+    crossings(camera, position, order, bends, |radius| is_behind |= (inner..outer).contains(&radius));
+    is_behind
 }

@@ -239,7 +239,9 @@ fn light_crosses_the_plane_of_the_disk_where_its_ray_does() {
         let camera = static_camera(DVec3::new(9.0, 1.0, 2.5), -DVec3::X, DVec3::Z, 1.0);
         let position = DVec3::new(14.0 * turn.cos(), 14.0 * turn.sin(), 5.0 * (1.7 * turn).sin());
         for order in [1, 2].map(|order| Order::new(order).unwrap()) {
-            for radius in occlusion::crossings(&camera, position, order, true) {
+            let mut radii = Vec::new();
+            occlusion::crossings(&camera, position, order, true, |radius| radii.push(radius));
+            for radius in radii {
                 // The place of the crossing lies in the ray's plane and in that of the disk, on one side or the other; its light comes the
                 // same way.
                 let line = camera.position.cross(position).cross(DVec3::Z).normalize();
