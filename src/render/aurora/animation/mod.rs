@@ -155,8 +155,6 @@ struct Images {
     departures: [(Order, f64); Order::ALL.len()],
     /// The width of the widest, pixels.
     widest: f64,
-    /// A number of chords to keep, where it was found anew.
-    chords: Option<Chords>,
 }
 
 impl AuroraAnimation {
@@ -265,7 +263,6 @@ impl AuroraAnimation {
         let ahead = if self.watched { self.go_on(globe.time, now, images.widest) } else { self.advance(now) };
         let midnight = self.midnight(globe.position, globe.attitude);
         self.draw_streaks(&mut images, globe, ahead);
-        self.chords = images.chords.or(self.chords);
         let frame = &mut images.frame;
         frame.settings.midnight = midnight.as_vec2().to_array();
         frame.ground = self.ground(midnight, ahead, images.widest);
@@ -382,7 +379,9 @@ impl AuroraAnimation {
         let kept = self.chords.and_then(|chords| chords.kept(&so_many(0), segments));
         let chords = kept.unwrap_or_else(|| bend.chords(segments, &newest.places, middle, departures, flags));
         // A picture that is made once does not depend on those before.
-        images.chords = (self.watched && kept.is_none()).then(|| so_many(chords));
+        if self.watched && kept.is_none() {
+            self.chords = Some(so_many(chords));
+        }
         let parts = curtains.parts(globe);
         let capacity = (streaks as usize * parts as usize).min(MOST_STROKES);
         let levels = curtains.levels(globe, segments, self.planet.radius * REACH);
