@@ -36,6 +36,7 @@ struct Frame {
     error_budget: f32,
     /// Factor on the exposure.
     exposure_bias: f32,
+    /// Luminance of a star of magnitude 0 that is spread over one pixel of the output.
     star_brightness: f32,
     sky_brightness: f32,
     /// Share of the light that is spread.
@@ -50,7 +51,7 @@ struct Frame {
     flags: u32,
     /// How often an edge may be halved.
     halvings: u32,
-    /// Standard deviation of a star's spot, in pixels.
+    /// Standard deviation of a star's spot, in pixels of the output.
     star_sigma: f32,
     /// Least flux of a star that is drawn, in units of a star of magnitude 0.
     faintest_star: f32,
@@ -75,7 +76,8 @@ struct Frame {
     most_rise: f32,
     /// and 1 over that of the frame before, 0 over black.
     rise_per_luminance: f32,
-    unused: f32,
+    /// How much wider the output is than the picture that is drawn.
+    enlargement: f32,
 }
 
 /// How the eye has adapted, kept from frame to frame.
@@ -388,7 +390,7 @@ struct StarCluster {
 struct SeenStar {
     /// Centre in NDC.
     place: vec2<f32>,
-    /// Of its spot, in pixels: a faint star ends sooner.
+    /// Of its spot, in pixels of the output: a faint star ends sooner.
     radius: f32,
     /// Linear light of the whole star, to be spread over its spot.
     colour: vec3<f32>,

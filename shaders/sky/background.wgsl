@@ -1,4 +1,5 @@
-// The background: the Milky Way behind everything, filtered by the size of the lensed pixel. Cells come from cells.wgsl.
+// The background: the Milky Way behind everything, filtered by the size of the lensed pixel. Cells come from cells.wgsl. The alpha of the
+// picture is how much of the sky is covered: nothing yet.
 
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::colour::shifted_colour
@@ -31,7 +32,7 @@ fn smooth_vertex(@builtin(vertex_index) i: u32) -> Smooth {
 @fragment
 fn smooth_fragment(in: Smooth) -> @location(0) vec4<f32> {
     let root = textureSampleLevel(milky_way, milky_way_sampler, in.place.xy, in.place.z).r;
-    return vec4<f32>(min(panorama_light(root, in.faint, in.bright), vec3<f32>(6e4)), 1.0);
+    return vec4<f32>(min(panorama_light(root, in.faint, in.bright), vec3<f32>(6e4)), 0.0);
 }
 
 struct Exact {
@@ -49,12 +50,12 @@ fn exact_vertex(@builtin(vertex_index) i: u32) -> Exact {
 fn exact_fragment(in: Exact) -> @location(0) vec4<f32> {
     let view = sky_view(in.ndc);
     if !view.lit {
-        return vec4<f32>(0.0, 0.0, 0.0, 1.0);
+        return vec4<f32>(0.0);
     }
     let level = panorama_level(view.size, textureDimensions(milky_way).y);
     let root = textureSampleLevel(milky_way, milky_way_sampler, view.uv, level).r;
     let flags = frame.flags;
     let colour = shifted_colour(panorama_light(root, PANORAMA_FAINT, PANORAMA_BRIGHT), view.g, (flags & FLAG_DOPPLER) != 0u,
         (flags & FLAG_BEAMING) != 0u);
-    return vec4<f32>(min(colour * frame.sky_brightness, vec3<f32>(6e4)), 1.0);
+    return vec4<f32>(min(colour * frame.sky_brightness, vec3<f32>(6e4)), 0.0);
 }

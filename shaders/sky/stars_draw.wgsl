@@ -1,9 +1,14 @@
-// Stars drawn as spots of constant shape and exact total light, so that they neither blink nor stretch as they move across pixels.
+// Stars, drawn into the picture as spots.
 
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::SeenStar
+#import lensrunner::sky::star_spot::{spot_corner, spot_share}
 
 @group(1) @binding(0) var<storage, read> seen_stars: array<SeenStar>;
+
+/// Standard deviation of the narrowest spots, in drawn pixels: as they move their light, sampled at pixel centres, changes by up to 4 %
+/// (twice its transform at the sampling frequency, e^{−2π²·0.45²}).
+const LEAST_SIGMA: f32 = 0.45;
 
 struct Spot {
     @builtin(position) position: vec4<f32>,
@@ -11,20 +16,21 @@ struct Spot {
     @location(1) @interpolate(flat) colour: vec3<f32>,
 }
 
+/// Standard deviation of spots, in drawn pixels: that of the output, as far as it can be sampled.
+fn drawn_sigma() -> f32 {
+    return max(frame.star_sigma / frame.enlargement, min(LEAST_SIGMA, frame.star_sigma));
+}
+
 @vertex
 fn vertex(@builtin(vertex_index) i: u32) -> Spot {
     let star = seen_stars[i / 3u];
-    // The triangle round the spot: a third more pixels than a square, but half the triangles, and these are what a software driver pays
-    // for.
-    let corners = array<vec2<f32>, 3>(vec2<f32>(-1.7320508, -1.0), vec2<f32>(1.7320508, -1.0), vec2<f32>(0.0, 2.0));
-    let corner = corners[i % 3u] * star.radius;
+    let corner = spot_corner(i % 3u) * (star.radius * (drawn_sigma() / frame.star_sigma));
     // A depth just nearer than the sky's: everything solid hides it.
-    return Spot(vec4<f32>(star.place + corner * 2.0 / frame.size, 1e-12, 1.0), corner, star.colour);
+    return Spot(vec4<f32>(star.place + corner * 2.0 / frame.size, 1e-12, 1.0), corner,
+        star.colour / (frame.enlargement * frame.enlargement));
 }
 
 @fragment
 fn fragment(in: Spot) -> @location(0) vec4<f32> {
-    let square = 2.0 * frame.star_sigma * frame.star_sigma;
-    let weight = exp(-dot(in.place, in.place) / square) / (3.14159265 * square);
-    return vec4<f32>(in.colour * weight, 0.0);
+    return vec4<f32>(in.colour * spot_share(in.place, drawn_sigma()), 0.0);
 }

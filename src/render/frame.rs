@@ -76,6 +76,7 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types:
     let river = if bends { DVec3::ZERO } else { static_momentum(camera.position).unwrap_or(DVec3::ZERO) };
     let axis = |v: DVec3| v.as_vec3().to_array();
     let edge = if bends { light::shadow_angle(1.0 / radius) } else { std::f64::consts::PI };
+    let enlargement = 1.0 / settings.resolution.clamp(1e-3, 1.0);
     types::Frame {
         camera_from_rain: (camera.camera_from_rain() * frames::boost(-river)).as_mat4().to_cols_array_2d(),
         rain_from_camera: (frames::boost(river) * camera.rain_from_camera()).as_mat4().to_cols_array_2d(),
@@ -92,8 +93,8 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types:
         pixel: pixel as f32,
         error_budget: (pixel * f64::from(settings.pixel_error)) as f32,
         exposure_bias: settings.exposure_bias,
-        // A spot spreads a star's light over pixels of this solid angle.
-        star_brightness: settings.star_brightness * SKY_UNIT / (pixel * pixel) as f32,
+        // A spot spreads a star's light over pixels of the output, of this solid angle.
+        star_brightness: settings.star_brightness * SKY_UNIT / (pixel * pixel) as f32 * (enlargement * enlargement),
         sky_brightness: if settings.milky_way { settings.sky_brightness * SKY_UNIT * milky_way::PEAK } else { 0.0 },
         bloom: settings.bloom,
         least_exposure: settings.exposure_range[0],
@@ -118,7 +119,7 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types:
         most_rise: settings.rise,
         // Over what, the renderer knows.
         rise_per_luminance: 0.0,
-        unused: 0.0,
+        enlargement,
     }
 }
 

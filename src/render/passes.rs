@@ -102,8 +102,27 @@ impl Shown<'_> {
         timing.count("draw", &mut pass, |pass| {
             self.geometry.draw_opaque(pass);
             self.background.draw(pass);
-            self.stars.draw(pass);
+            if targets.starless.is_none() {
+                self.stars.draw(pass);
+            }
         });
+    }
+
+    /// Adds the stars to a picture that is to be enlarged, once all else is drawn and kept without them: glow, exposure and mean brightness
+    /// are those of the whole.
+    pub fn add_stars(&self, recording: &mut Recording) {
+        let Recording { encoder, timing, frame, targets } = recording;
+        let Some((starless, _)) = &targets.starless else { return };
+        encoder.copy_texture_to_texture(targets.picture_texture.as_image_copy(), starless.as_image_copy(), starless.size());
+        let timestamp_writes = timing.render(encoder, "draw");
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("stars"),
+            color_attachments: &[Some(colour(&targets.picture, false))],
+            timestamp_writes,
+            ..Default::default()
+        });
+        pass.set_bind_group(0, *frame, &[]);
+        self.stars.add(&mut pass);
     }
 
     /// The aurora's walk on the screen, once all that has depth has been drawn: it asks what is before and behind of it.

@@ -47,7 +47,7 @@ pub struct Settings {
     pub milky_way: bool,
     /// Factor on the light of stars.
     pub star_brightness: f32,
-    /// Standard deviation of a star's spot, in pixels.
+    /// Standard deviation of a star's spot, in pixels of the output.
     pub star_sigma: f32,
     /// Stars of less flux (1 for magnitude 0) are left out.
     pub faintest_star: f32,

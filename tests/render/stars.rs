@@ -9,10 +9,14 @@ use glam::{DQuat, DVec3};
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::{self, ReadbackPicture};
 use lensrunner::render::gpu::types::{STAR_ORDERS, Star};
+use lensrunner::render::quality::options::{QualityOption, turned};
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::settings::Settings;
+use lensrunner::render::stage::Stage;
+use lensrunner::scene::sky::stars::SKY_UNIT;
+use lensrunner::scene::{self, GameConfig};
 
-use crate::render::support::renderer_under;
+use crate::render::support::{linear, renderer_under};
 use crate::support::shared_table;
 
 /// A picture of these stars before a Milky Way of even brightness `haze`, from far away.
@@ -125,4 +129,84 @@ fn no_star_on_the_screen_is_left_out() {
     assert!(expected > 3000, "{expected}");
     println!("{kept} clusters are kept");
     assert!(kept < 5 * STAR_ORDERS * 1536 * 2 / 5, "{kept}");
+}
+
+/// Settings under which a star of this flux is about as bright as white in a picture of 640 pixels' width and 60° of view, drawn at this
+/// step of the resolution.
+fn exposed_for(flux: f32, step: u8) -> Settings {
+    let pixel = 2.0 * 30f32.to_radians().tan() / 640.0;
+    let exposure = 3.0 * pixel * pixel / (flux * SKY_UNIT);
+    let mut steps = [0; QualityOption::ALL.len()];
+    steps[0] = step;
+    turned(&Settings { bloom: 0.0, exposure_range: [exposure; 2], exposure_bias: 1.0, ..Settings::finest() }, &steps)
+}
+
+/// The step of the resolution that draws a quarter of the width.
+const QUARTER: u8 = 7;
+
+/// The light of a star alone on black, as shown, and the standard deviation of its spot in pixels, wherever it lies between them.
+#[test]
+fn a_star_of_an_enlarged_picture_is_as_bright_and_as_narrow_as_in_a_full_one() {
+    for k in 0..8 {
+        let aside = DVec3::new(0.1 + 0.003 * f64::from(k), 0.05 + 0.0017 * f64::from(k), -1.0);
+        let [full, enlarged] = [0, QUARTER].map(|step| {
+            let picture = picture(&[star(aside, 0.1)], 0.0, far_camera(DVec3::ZERO), [640, 360], exposed_for(0.1, step));
+            // Without the noise of the dark.
+            let lit = picture.display.chunks_exact(4).enumerate().filter(|(_, pixel)| pixel[1] > 8);
+            let lit: Vec<[f64; 3]> = lit.map(|(k, pixel)| [(k % 640) as f64, (k / 640) as f64, linear(pixel[1])]).collect();
+            let mean = |of: &dyn Fn(&[f64; 3]) -> f64| lit.iter().map(of).sum::<f64>() / lit.iter().map(|p| p[2]).sum::<f64>();
+            let [x, y] = [0, 1].map(|axis| mean(&|p| p[axis] * p[2]));
+            [lit.iter().map(|p| p[2]).sum::<f64>(), mean(&|p| 0.5 * ((p[0] - x).powi(2) + (p[1] - y).powi(2)) * p[2]).sqrt(), x, y]
+        });
+        println!("light, width, place: {full:.3?} in full, {enlarged:.3?} enlarged");
+        assert!((0.98..1.02).contains(&(enlarged[0] / full[0])), "the light is {} and {}", full[0], enlarged[0]);
+        assert!((0.98..1.02).contains(&(enlarged[1] / full[1])), "the width is {} and {} px", full[1], enlarged[1]);
+        assert!((2..4).all(|k| (enlarged[k] - full[k]).abs() < 0.02), "it is elsewhere");
+    }
+}
+
+/// A whole sky of them is that of a full picture, pixel by pixel.
+#[test]
+fn stars_of_an_enlarged_picture_are_those_of_a_full_one() {
+    let stars: Vec<Star> = spiral(3000).map(|direction| star(direction, 0.1)).collect();
+    let [full, enlarged] =
+        [0, QUARTER].map(|step| picture(&stars, 0.0, far_camera(DVec3::ZERO), [640, 360], exposed_for(0.1, step)).display);
+    let lit = full.iter().filter(|&&value| (64..255).contains(&value)).count();
+    let worst = full.iter().zip(&enlarged).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
+    println!("{lit} values are lit, and off by {worst} steps at most");
+    assert!(lit > 1000, "{lit}");
+    // The dark is dithered in the small picture, and light is added up in eight bits.
+    assert!(worst < 8, "a value is off by {worst} steps");
+}
+
+/// What covers the sky hides the stars of an enlarged picture.
+#[test]
+fn bodies_hide_the_stars_of_an_enlarged_picture() {
+    const SIZE: [u32; 2] = [640, 360];
+    let stars: Vec<Star> = spiral(20_000).map(|direction| star(direction, 0.1)).collect();
+    let surroundings = Surroundings { table: shared_table(), stars, milky_way: vec![(1, 1, vec![0.0])] };
+    let mut renderer = renderer_under(&surroundings, SIZE);
+    let mut stage = Stage::new(&mut renderer, &scene::load("ring").unwrap(), &GameConfig::default());
+    let camera = stage.camera(0.0, &[]);
+    let mut shown = |step, stars| {
+        let settings = Settings { stars, ..exposed_for(0.1, step) };
+        renderer.picture(&stage.frame(camera, SIZE, 0.0, &[], None, &settings), step == 0).unwrap()
+    };
+    let full = shown(0, false);
+    let [with, without] = [true, false].map(|stars| shown(QUARTER, stars).display);
+    let is_body = |x: i64, y: i64| full.layers.get((y * 640 + x) as usize).is_some_and(|layer| layer[0] > 0.0);
+    let (mut inside, mut lit) = (0, 0);
+    for (x, y) in (0..360).flat_map(|y| (0..640).map(move |x| (x, y))) {
+        let k = 4 * (y * 640 + x) as usize;
+        let differs = with[k..k + 3] != without[k..k + 3];
+        lit += u32::from(differs);
+        // Farther from its outline than two drawn pixels and a spot.
+        let mut about = (-12..=12).step_by(4).flat_map(|i| (-12..=12).step_by(4).map(move |j| [i, j]));
+        if about.all(|[i, j]| (0..640).contains(&(x + i)) && is_body(x + i, y + j)) {
+            inside += 1;
+            assert!(!differs, "a star is seen through the body at {x}, {y}");
+        }
+    }
+    println!("{inside} pixels of the body are looked at, stars are seen in {lit}");
+    assert!(inside > 500 && lit > 1000, "{inside}, {lit}");
 }

@@ -149,6 +149,7 @@ fn modules(worldlines: Worldlines, method: Method) -> Vec<(&'static str, File)> 
         own(file!("sky/table.wgsl")),
         own(file!("sky/direction.wgsl")),
         own(file!("sky/star_clusters.wgsl")),
+        own(file!("sky/star_spot.wgsl")),
         own(file!("aurora/stroke.wgsl")),
         own(file!("aurora/streaks.wgsl")),
         own(file!("aurora/levels/lit_tiles.wgsl")),

@@ -64,6 +64,8 @@ passes! {
     StarsProject: "sky/stars_project.wgsl",
     /// Draws stars.
     StarsDraw: "sky/stars_draw.wgsl",
+    /// Lays stars over an enlarged picture.
+    StarsOver: "sky/stars_over.wgsl",
     /// Projects places amid the parts of the aurora's curtains.
     AuroraProject: "aurora/project.wgsl",
     /// The ends of each streak's chords.

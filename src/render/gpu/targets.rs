@@ -1,4 +1,4 @@
-//! The textures that a frame is drawn into, all of the size of the output.
+//! The textures that a frame is drawn into, all of one size.
 
 use crate::render::gpu::layout::{DEPTH_FORMAT, HDR_FORMAT, SIGNED_FORMAT, new_texture};
 
@@ -41,6 +41,8 @@ pub struct Targets {
     pub picture_texture: wgpu::Texture,
     /// The picture in linear light.
     pub picture: wgpu::TextureView,
+    /// The same without stars, in a picture that is to be enlarged: these are laid over it afterwards.
+    pub starless: Option<(wgpu::Texture, wgpu::TextureView)>,
     /// Depth, reversed.
     pub depth: wgpu::TextureView,
     /// Sum of thin triangles, as a texture to copy from.
@@ -60,8 +62,8 @@ pub struct Targets {
 }
 
 impl Targets {
-    /// Makes them; no side is smaller than a pixel.
-    pub fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
+    /// Makes them; no side is smaller than a pixel. `enlarged` is whether the picture is to be enlarged.
+    pub fn new(device: &wgpu::Device, size: [u32; 2], enlarged: bool) -> Self {
         let size = size.map(|side| side.max(1));
         let (picture_texture, picture) = target(device, "picture", size, HDR_FORMAT);
         let (thin_texture, thin) = target(device, "thin", size, HDR_FORMAT);
@@ -81,6 +83,12 @@ impl Targets {
             size,
             picture_texture,
             picture,
+            starless: enlarged.then(|| {
+                let usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST;
+                let texture = new_texture(device, "starless", size, [1, 1], HDR_FORMAT, usage);
+                let view = texture.create_view(&Default::default());
+                (texture, view)
+            }),
             depth: target(device, "depth", size, DEPTH_FORMAT).1,
             thin_texture,
             thin,

@@ -48,7 +48,7 @@ pub struct Frame {
     pub exposure_key_without_disk: f32,
     pub most_rise: f32,
     pub rise_per_luminance: f32,
-    pub unused: f32,
+    pub enlargement: f32,
 }
 
 /// `Capacity` in WGSL.

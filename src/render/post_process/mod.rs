@@ -143,6 +143,7 @@ impl PostProcess {
         let display = display(device, targets.size, self.output);
         let outlines = outlines(gpu, targets.size);
         let [finer, coarser] = targets.metered_levels();
+        let shown = targets.starless.as_ref().map_or(&targets.picture, |(_, view)| view);
         let views = std::iter::once(&targets.picture).chain(&targets.bloom).chain([&targets.glow]);
         self.groups = Some(Groups {
             thin: bind(device, "thin", &self.thin_layout, &[TextureView(&targets.thin), TextureView(&targets.thin_signed)]),
@@ -159,7 +160,7 @@ impl PostProcess {
                 device,
                 "tone map",
                 &self.tone_map_layout,
-                &[TextureView(&targets.picture), Sampler(&self.sampler), TextureView(&targets.bloom[0]), self.adapted.as_entire_binding()],
+                &[TextureView(shown), Sampler(&self.sampler), TextureView(&targets.bloom[0]), self.adapted.as_entire_binding()],
             ),
             smooth: bind(
                 device,
@@ -176,6 +177,11 @@ impl PostProcess {
             display,
             outlines,
         });
+    }
+
+    /// The exposure of the picture, and the factor on it: an [`Adaptation`].
+    pub fn adapted(&self) -> &wgpu::Buffer {
+        &self.adapted
     }
 
     /// Lays the thin triangles over the picture, in the tiles that have some.

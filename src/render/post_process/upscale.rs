@@ -1,12 +1,14 @@
-//! A picture that was drawn smaller than the output, enlarged to it: `shaders/post_process/upscale.wgsl`.
+//! A picture that was drawn smaller than the output, enlarged to it: `shaders/post_process/upscale.wgsl`. Stars are laid over it at full
+//! size, or they would be squares: `shaders/sky/stars_over.wgsl`.
 
 use wgpu::ShaderStages;
 
 use crate::render::gpu::layout::{Raster, Slot, bind, layout, module, raster};
 use crate::render::gpu::shaders::Pass;
-use crate::render::gpu::targets::target;
+use crate::render::gpu::targets::{Targets, target};
 use crate::render::passes::{Recording, colour};
 use crate::render::post_process::begin;
+use crate::render::sky::{Stars, onto, seen_layout};
 
 /// The passes that enlarge, for an output of one format.
 #[derive(Debug)]
@@ -14,6 +16,8 @@ pub struct Upscale {
     layout: wgpu::BindGroupLayout,
     rows: wgpu::RenderPipeline,
     columns: wgpu::RenderPipeline,
+    stars_layout: wgpu::BindGroupLayout,
+    stars: wgpu::RenderPipeline,
     format: wgpu::TextureFormat,
     targets: Option<UpscaleTargets>,
 }
@@ -25,6 +29,7 @@ struct UpscaleTargets {
     drawn: wgpu::TextureView,
     wide: wgpu::TextureView,
     groups: [wgpu::BindGroup; 2],
+    stars_group: wgpu::BindGroup,
 }
 
 /// The size of the picture that is drawn for an output of this size, in pixels. `resolution`: its share of the width and height.
@@ -41,18 +46,28 @@ impl Upscale {
             let stage = Raster { vertex: "vertex", fragment, targets: &[(format, None)], depth: None };
             raster(device, label, &shader, stage, &[Some(frame_layout), None, Some(&layout)])
         };
-        Upscale { rows: pass("upscale rows", "rows"), columns: pass("upscale columns", "columns"), layout, format, targets: None }
+        let stars_layout = self::layout(device, "stars over", ShaderStages::VERTEX_FRAGMENT, &[Slot::Numbers, Slot::Uniform]);
+        let blend = onto(wgpu::BlendFactor::One, wgpu::BlendFactor::OneMinusSrc);
+        let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(format, Some(blend))], depth: None };
+        let groups = [Some(frame_layout), Some(&seen_layout(device)), Some(&stars_layout)];
+        let stars = raster(device, "stars over", &module(device, "stars over", Pass::StarsOver), stage, &groups);
+        let [rows, columns] = [pass("upscale rows", "rows"), pass("upscale columns", "columns")];
+        Upscale { rows, columns, stars_layout, stars, layout, format, targets: None }
     }
 
-    /// Takes up sizes: of what is drawn, and of the output.
-    pub fn resize(&mut self, device: &wgpu::Device, drawn: [u32; 2], output: [u32; 2]) {
+    /// Takes up sizes: of what is drawn, that of `targets`, and of the output. `adapted` is the exposure of the picture.
+    pub fn resize(&mut self, device: &wgpu::Device, targets: &Targets, output: [u32; 2], adapted: &wgpu::Buffer) {
+        let drawn = targets.size;
         if drawn == output {
             self.targets = None;
-        } else if self.targets.as_ref().is_none_or(|targets| targets.sizes != [drawn, output]) {
+        } else if self.targets.as_ref().is_none_or(|own| own.sizes != [drawn, output]) {
             let [small, wide] =
                 [("drawn", drawn), ("wide", [output[0], drawn[1]])].map(|(label, size)| target(device, label, size, self.format).1);
             let group = |view| bind(device, "upscale", &self.layout, &[wgpu::BindingResource::TextureView(view)]);
-            self.targets = Some(UpscaleTargets { sizes: [drawn, output], groups: [group(&small), group(&wide)], drawn: small, wide });
+            let seen = [wgpu::BindingResource::TextureView(&targets.picture), adapted.as_entire_binding()];
+            let stars_group = bind(device, "stars over", &self.stars_layout, &seen);
+            let groups = [group(&small), group(&wide)];
+            self.targets = Some(UpscaleTargets { sizes: [drawn, output], groups, stars_group, drawn: small, wide });
         }
     }
 
@@ -61,12 +76,14 @@ impl Upscale {
         self.targets.as_ref().map(|targets| &targets.drawn)
     }
 
-    /// Enlarges what was drawn, into `output`; nothing where that is as large.
-    pub fn run(&self, recording: &mut Recording, output: &wgpu::TextureView) {
+    /// Enlarges what was drawn, into `output`, and lays stars over it; nothing where that is as large.
+    pub fn run(&self, recording: &mut Recording, stars: &Stars, output: &wgpu::TextureView) {
         let Some(targets) = &self.targets else { return };
         for (pipeline, group, to) in [(&self.rows, &targets.groups[0], &targets.wide), (&self.columns, &targets.groups[1], output)] {
             begin(recording, ["upscale"; 2], &[Some(colour(to, true))], pipeline, group).draw(0..3, 0..1);
         }
+        let over = &[Some(colour(output, false))];
+        stars.draw_by(&mut begin(recording, ["stars over"; 2], over, &self.stars, &targets.stars_group));
     }
 }
 

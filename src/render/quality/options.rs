@@ -20,10 +20,6 @@ pub struct QualityOption {
 /// The step of each option, in the order of [`QualityOption::ALL`].
 pub type OptionSteps = [u8; QualityOption::ALL.len()];
 
-/// Standard deviation of the narrowest spots of stars, in drawn pixels: as they move their light, sampled at pixel centres, changes by up
-/// to 4 % (twice its transform at the sampling frequency, e^{−2π²·0.45²}).
-const LEAST_SIGMA: f32 = 0.45;
-
 impl QualityOption {
     /// All of them.
     pub const ALL: [QualityOption; 9] = [
@@ -33,11 +29,7 @@ impl QualityOption {
             is_by_pixel: false,
             values: &[1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.33, 0.25],
             words: |share| format!("{:.0} % of the width", 100.0 * share),
-            set: |settings, share| {
-                settings.resolution *= share;
-                // Spots of stars stay as wide in the output, as far as they can be sampled.
-                settings.star_sigma = (settings.star_sigma * share).max(LEAST_SIGMA.min(settings.star_sigma));
-            },
+            set: |settings, share| settings.resolution *= share,
         },
         // Factor on the allowed error of a point.
         QualityOption {

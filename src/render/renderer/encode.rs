@@ -47,9 +47,10 @@ impl Renderer {
         shown.draw_aurora(&mut recording, true);
         shown.lay_over(&mut recording, |recording| self.post_process.compose(recording, &self.thin));
         shown.draw_aurora(&mut recording, false);
+        shown.add_stars(&mut recording);
         let drawn = self.upscale.drawn().unwrap_or(output);
         self.post_process.run(&mut recording, &self.adaptation, self.finish, drawn);
-        self.upscale.run(&mut recording, output);
+        self.upscale.run(&mut recording, &self.stars, output);
         self.before = if self.finish.steady { Before::Measured } else { Before::Unmeasured };
         if self.counting {
             self.counted[0].record(&self.gpu.device, encoder, self.geometry.counters());

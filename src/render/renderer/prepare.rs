@@ -127,10 +127,11 @@ impl Renderer {
 
     /// Makes targets of this size, for the output as it is.
     fn make_targets(&mut self, drawn: [u32; 2]) {
-        self.upscale.resize(&self.gpu.device, drawn, self.output.0);
-        if drawn != self.targets.size {
-            self.targets = Targets::new(&self.gpu.device, drawn);
+        let enlarged = drawn != self.output.0;
+        if (drawn, enlarged) != (self.targets.size, self.targets.starless.is_some()) {
+            self.targets = Targets::new(&self.gpu.device, drawn, enlarged);
             self.post_process.resize(&self.gpu, &self.targets, &self.adaptation);
         }
+        self.upscale.resize(&self.gpu.device, &self.targets, self.output.0, self.post_process.adapted());
     }
 }

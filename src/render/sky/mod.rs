@@ -6,4 +6,4 @@ mod stars;
 pub mod table;
 
 pub use background::{Background, Panorama};
-pub use stars::Stars;
+pub use stars::{Stars, onto, seen_layout};

@@ -24,10 +24,26 @@ pub struct Stars {
     project_group: wgpu::BindGroup,
     seen: wgpu::Buffer,
     draw: wgpu::RenderPipeline,
+    /// The same where all else is drawn, dimmed by what covers the sky.
+    add: wgpu::RenderPipeline,
     draw_group: wgpu::BindGroup,
     arguments: wgpu::Buffer,
     /// Whether any may be drawn in this frame.
     shown: bool,
+}
+
+/// Adds light of this share to this share of what is there, whose alpha stays.
+pub fn onto(src_factor: wgpu::BlendFactor, dst_factor: wgpu::BlendFactor) -> wgpu::BlendState {
+    let (zero, one, operation) = (wgpu::BlendFactor::Zero, wgpu::BlendFactor::One, wgpu::BlendOperation::Add);
+    wgpu::BlendState {
+        color: wgpu::BlendComponent { src_factor, dst_factor, operation },
+        alpha: wgpu::BlendComponent { src_factor: zero, dst_factor: one, operation },
+    }
+}
+
+/// The layout of the stars that are seen: group 1 of the passes that draw them.
+pub fn seen_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    layout(device, "stars draw", wgpu::ShaderStages::VERTEX, &[Slot::Read])
 }
 
 impl Stars {
@@ -58,25 +74,18 @@ impl Stars {
         let slots = [Slot::Numbers, Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write];
         let buffers = [&listed, &groups, &catalogue, &seen, &arguments];
         let (project, project_group) = stage("stars project", Pass::StarsProject, &slots, &buffers);
-        let draw_layout = layout(device, "stars draw", wgpu::ShaderStages::VERTEX, &[Slot::Read]);
+        let draw_layout = seen_layout(device);
         let draw_group = bind(device, "stars draw", &draw_layout, &[seen.as_entire_binding()]);
         let shader = module(device, "stars draw", Pass::StarsDraw);
-        let add = wgpu::BlendState {
-            color: wgpu::BlendComponent {
-                src_factor: wgpu::BlendFactor::One,
-                dst_factor: wgpu::BlendFactor::One,
-                operation: wgpu::BlendOperation::Add,
-            },
-            alpha: wgpu::BlendComponent {
-                src_factor: wgpu::BlendFactor::Zero,
-                dst_factor: wgpu::BlendFactor::One,
-                operation: wgpu::BlendOperation::Add,
-            },
+        let pipeline = |label, src_factor, depth| {
+            let blend = onto(src_factor, wgpu::BlendFactor::One);
+            let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, Some(blend))], depth };
+            raster(device, label, &shader, stage, &[Some(frame_layout), Some(&draw_layout)])
         };
-        let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, Some(add))], depth: Some(false) };
-        let draw = raster(device, "stars draw", &shader, stage, &[Some(frame_layout), Some(&draw_layout)]);
+        let draw = pipeline("stars draw", wgpu::BlendFactor::One, Some(false));
+        let add = pipeline("stars add", wgpu::BlendFactor::OneMinusDstAlpha, None);
         let clusters = clusters.len() as u32;
-        Stars { clusters, cull, cull_group, groups, project, project_group, seen, draw, draw_group, arguments, shown: false }
+        Stars { clusters, cull, cull_group, groups, project, project_group, seen, draw, add, draw_group, arguments, shown: false }
     }
 
     /// Empties the lists, before [`Stars::project`]; `shown` is whether this frame has stars.
@@ -105,9 +114,20 @@ impl Stars {
         [&self.groups, &self.seen, &self.arguments]
     }
 
-    /// Draws those that are seen.
+    /// Draws those that are seen, behind what has depth.
     pub fn draw(&self, pass: &mut wgpu::RenderPass) {
         pass.set_pipeline(&self.draw);
+        self.draw_by(pass);
+    }
+
+    /// Adds those that are seen to a picture in which all else is drawn.
+    pub fn add(&self, pass: &mut wgpu::RenderPass) {
+        pass.set_pipeline(&self.add);
+        self.draw_by(pass);
+    }
+
+    /// Draws those that are seen, by the pipeline that is set.
+    pub fn draw_by(&self, pass: &mut wgpu::RenderPass) {
         pass.set_bind_group(1, &self.draw_group, &[]);
         pass.draw_indirect(&self.arguments, 0);
     }

@@ -73,7 +73,7 @@ fn structs_have_one_layout_in_both_languages() {
             time, size, pixel, error_budget, exposure_bias, star_brightness, sky_brightness, bloom, least_exposure, greatest_exposure,
             adaptation, shadow_edge, flags, halvings, star_sigma, faintest_star, capacity, least_fill, greatest_fill, last_exposure,
             exposure_known, unmetered_middle, unmetered_radius, exposure_key, disk_indices, exposure_key_without_disk, most_rise,
-            rise_per_luminance, unused),
+            rise_per_luminance, enlargement),
         ),
         ("gpu::types::Adaptation", fields!(Adaptation: exposure, metered, known, steadied)),
         ("gpu::types::Capacity", fields!(Capacity: vertices, indices, work, thin)),

@@ -1,0 +1,16 @@
+#define_import_path lensrunner::sky::star_spot
+
+// The spot of a star: of constant shape and exact total light, so that it neither blinks nor stretches as it moves across pixels.
+
+/// Corner `i`, from 0 to 2, of the triangle round a spot of radius 1: a third more pixels than a square, but half the triangles, and these
+/// are what a software driver pays for.
+fn spot_corner(i: u32) -> vec2<f32> {
+    let corners = array<vec2<f32>, 3>(vec2<f32>(-1.7320508, -1.0), vec2<f32>(1.7320508, -1.0), vec2<f32>(0.0, 2.0));
+    return corners[i];
+}
+
+/// The share of a star's light in a pixel at `place` from it, in pixels.
+fn spot_share(place: vec2<f32>, sigma: f32) -> f32 {
+    let square = 2.0 * sigma * sigma;
+    return exp(-dot(place, place) / square) / (3.14159265 * square);
+}
