@@ -10,7 +10,7 @@ pub const LAYERS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 const METERED_WIDTH: u32 = 80;
 
 /// Levels of the picture for bloom and metering: a quarter, and from there halvings. A half is not among them: it would cost more than all
-/// the others, for a glow of two pixels.
+/// the others, for a glow of two pixels. In a picture that is enlarged twice or more it is the first: the glow of stars is narrow.
 const BLOOM_LEVELS: usize = 5;
 
 /// Pixels along the side of a tile of the picture; as in shaders/post_process/tiles.wgsl.
@@ -37,6 +37,8 @@ pub struct LayerTargets {
 pub struct Targets {
     /// Width and height in pixels.
     pub size: [u32; 2],
+    /// Those of the output, to which the picture is enlarged.
+    pub output: [u32; 2],
     /// The picture in linear light, as a texture to copy from.
     pub picture_texture: wgpu::Texture,
     /// The picture in linear light.
@@ -53,7 +55,7 @@ pub struct Targets {
     pub thin_signed_texture: wgpu::Texture,
     /// Sums of their coverage with signs and of what is laid over them later of the same images.
     pub thin_signed: wgpu::TextureView,
-    /// The picture at a quarter of its size, halved, halved again, and so on.
+    /// The picture at a quarter or a half of its size, halved, halved again, and so on.
     pub bloom: Vec<wgpu::TextureView>,
     /// As large as the finest of them: room to soften it.
     pub glow: wgpu::TextureView,
@@ -62,17 +64,18 @@ pub struct Targets {
 }
 
 impl Targets {
-    /// Makes them; no side is smaller than a pixel. `enlarged` is whether the picture is to be enlarged.
-    pub fn new(device: &wgpu::Device, size: [u32; 2], enlarged: bool) -> Self {
+    /// Makes them, for a picture of `size` pixels that is enlarged to `output`; no side is smaller than a pixel.
+    pub fn new(device: &wgpu::Device, size: [u32; 2], output: [u32; 2]) -> Self {
         let size = size.map(|side| side.max(1));
         let (picture_texture, picture) = target(device, "picture", size, HDR_FORMAT);
         let (thin_texture, thin) = target(device, "thin", size, HDR_FORMAT);
         let (thin_signed_texture, thin_signed) = target(device, "thin signed", size, SIGNED_FORMAT);
-        let glow = target(device, "glow", size.map(|side| side.div_ceil(4)), HDR_FORMAT).1;
+        let finest = if 2 * size[0] > output[0] { 4 } else { 2 };
+        let glow = target(device, "glow", size.map(|side| side.div_ceil(finest)), HDR_FORMAT).1;
         let mut bloom = Vec::new();
         let mut level = size;
         while bloom.len() < BLOOM_LEVELS {
-            let step = if bloom.is_empty() { 4 } else { 2 };
+            let step = if bloom.is_empty() { finest } else { 2 };
             level = level.map(|side: u32| side.div_ceil(step));
             bloom.push(target(device, "bloom", level, HDR_FORMAT).1);
             if level[0].min(level[1]) <= 4 {
@@ -81,9 +84,10 @@ impl Targets {
         }
         Targets {
             size,
+            output,
             picture_texture,
             picture,
-            starless: enlarged.then(|| {
+            starless: (size != output).then(|| {
                 let usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST;
                 let texture = new_texture(device, "starless", size, [1, 1], HDR_FORMAT, usage);
                 let view = texture.create_view(&Default::default());

@@ -72,8 +72,9 @@ pub struct Finish {
 /// stays dark.
 const WIDER: f32 = 0.5;
 
-/// The coarsest of `levels` levels that glows in a picture of this resolution, and what all but the finest have of the glow. A level of a
-/// picture that is drawn smaller is as wide as a coarser one of the full picture: the finest stands for those that are finer, too.
+/// The coarsest of `levels` levels that glows, and what all but the finest have of the glow. `resolution` is that of the finest, as a share
+/// of the full picture's. A level of a picture that is drawn smaller is as wide as a coarser one of the full picture: the finest stands for
+/// those that are finer, too.
 fn glow_levels(levels: usize, resolution: f32) -> (usize, f32) {
     let octaves = -resolution.clamp(1e-3, 1.0).log2();
     let last = levels.saturating_sub(1);
@@ -222,7 +223,8 @@ impl PostProcess {
     /// Mixes the levels of the bloom into the finest.
     fn mix_levels(&self, recording: &mut Recording, groups: &Groups, resolution: f32) {
         let targets = recording.targets;
-        let (coarsest, first) = glow_levels(targets.bloom.len(), resolution);
+        let finest = 4.0 * targets.bloom[0].texture().width() as f32 / targets.size[0] as f32;
+        let (coarsest, first) = glow_levels(targets.bloom.len(), resolution * finest);
         for level in (1..coarsest + 1).rev() {
             let (from, to) = (&groups.sampled[level + 1], &[Some(colour(&targets.bloom[level - 1], false))]);
             let mut pass = begin(recording, ["bloom", "bloom up"], to, &self.up, from);

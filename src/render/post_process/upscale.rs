@@ -55,9 +55,9 @@ impl Upscale {
         Upscale { rows, columns, stars_layout, stars, layout, format, targets: None }
     }
 
-    /// Takes up sizes: of what is drawn, that of `targets`, and of the output. `adapted` is the exposure of the picture.
-    pub fn resize(&mut self, device: &wgpu::Device, targets: &Targets, output: [u32; 2], adapted: &wgpu::Buffer) {
-        let drawn = targets.size;
+    /// Takes up targets of a new size. `adapted` is the exposure of the picture.
+    pub fn resize(&mut self, device: &wgpu::Device, targets: &Targets, adapted: &wgpu::Buffer) {
+        let [drawn, output] = [targets.size, targets.output];
         if drawn == output {
             self.targets = None;
         } else if self.targets.as_ref().is_none_or(|own| own.sizes != [drawn, output]) {

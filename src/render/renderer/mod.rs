@@ -152,7 +152,8 @@ impl Renderer {
         let blackbody = TableTexture::of(gpu, "black body", &table);
         // Until the first frame is metered, a middling exposure.
         let adaptation = storage(gpu, "adaptation", &[types::Adaptation { exposure: 1.0, ..Default::default() }]);
-        let targets = Targets::new(device, size.map(|side| side.max(1)), false);
+        let drawn = size.map(|side| side.max(1));
+        let targets = Targets::new(device, drawn, drawn);
         // Drivers compile on the thread that asks: on as many as there are.
         let finishing = || (PostProcess::new(device, &frame_layout, format), Upscale::new(device, &frame_layout, format));
         let sky = || {

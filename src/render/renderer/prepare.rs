@@ -127,11 +127,10 @@ impl Renderer {
 
     /// Makes targets of this size, for the output as it is.
     fn make_targets(&mut self, drawn: [u32; 2]) {
-        let enlarged = drawn != self.output.0;
-        if (drawn, enlarged) != (self.targets.size, self.targets.starless.is_some()) {
-            self.targets = Targets::new(&self.gpu.device, drawn, enlarged);
+        if [drawn, self.output.0] != [self.targets.size, self.targets.output] {
+            self.targets = Targets::new(&self.gpu.device, drawn, self.output.0);
             self.post_process.resize(&self.gpu, &self.targets, &self.adaptation);
         }
-        self.upscale.resize(&self.gpu.device, &self.targets, self.output.0, self.post_process.adapted());
+        self.upscale.resize(&self.gpu.device, &self.targets, self.post_process.adapted());
     }
 }
