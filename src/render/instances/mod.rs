@@ -109,7 +109,10 @@ pub struct Placed {
 
 impl Clone for Placed {
     fn clone(&self) -> Self {
-        Placed { nodes: self.nodes.clone(), ..*self }
+        // With the same room: what is cloned into it later fits.
+        let mut nodes = Vec::with_capacity(self.nodes.capacity());
+        nodes.extend_from_slice(&self.nodes);
+        Placed { nodes, ..*self }
     }
 
     fn clone_from(&mut self, other: &Self) {
