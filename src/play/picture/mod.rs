@@ -102,9 +102,9 @@ fn point_camera(
 fn make_frame(
     now: Now,
     (mut current, shot, statistics, quality): (ResMut<CurrentStage>, Res<CurrentShot>, Res<RenderStatistics>, Res<Quality>),
-    real: Res<Time<Real>>,
+    (real, player): (Res<Time<Real>>, Res<PlayerState>),
     screen: Res<State<Screen>>,
-    (windows, photo, player): (Query<&Window, With<PrimaryWindow>>, Option<Res<Photo>>, Res<PlayerState>),
+    (windows, photo): (Query<&Window, With<PrimaryWindow>>, Option<Res<Photo>>),
     (mut frame, mut timed): (ResMut<FrameToDraw>, ResMut<PassesTimed>),
     mut last: Local<Option<(ScreenContent, f64)>>,
 ) {

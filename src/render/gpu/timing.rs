@@ -263,24 +263,22 @@ impl Timing {
     fn receive(&mut self) {
         let Some(inner) = &mut self.inner else { return };
         let arrived = inner.waiting.as_ref().and_then(|(_, receive)| receive.try_recv().ok());
-        if let (Some(ok), Some((labels, _))) = (arrived, inner.waiting.take_if(|_| arrived.is_some())) {
-            if ok {
-                let range = inner.mapped.slice(..).get_mapped_range();
-                let ticks: Vec<u64> =
-                    range.chunks_exact(8).map(|b| u64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]])).collect();
-                drop(range);
-                inner.latest.clear();
-                for (&label, pair) in labels.timed.iter().zip(ticks.chunks_exact(2)) {
-                    add(&mut inner.latest, label, pair[1].saturating_sub(pair[0]) as f32 * inner.period * 1e-6);
-                }
-                if !labels.counted.is_empty() {
-                    inner.latest_fragments.clear();
-                }
-                for (&label, &count) in labels.counted.iter().zip(&ticks[COUNTS as usize..]) {
-                    add(&mut inner.latest_fragments, label, count);
-                }
-                inner.mapped.unmap();
+        if let (Some(true), Some((labels, _))) = (arrived, inner.waiting.take_if(|_| arrived.is_some())) {
+            let range = inner.mapped.slice(..).get_mapped_range();
+            let ticks: Vec<u64> =
+                range.chunks_exact(8).map(|b| u64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]])).collect();
+            drop(range);
+            inner.latest.clear();
+            for (&label, pair) in labels.timed.iter().zip(ticks.chunks_exact(2)) {
+                add(&mut inner.latest, label, pair[1].saturating_sub(pair[0]) as f32 * inner.period * 1e-6);
             }
+            if !labels.counted.is_empty() {
+                inner.latest_fragments.clear();
+            }
+            for (&label, &count) in labels.counted.iter().zip(&ticks[COUNTS as usize..]) {
+                add(&mut inner.latest_fragments, label, count);
+            }
+            inner.mapped.unmap();
         }
     }
 }
