@@ -186,14 +186,9 @@ impl Stand<'_> {
             self.picture.size(),
         );
         self.renderer.timing().step(&mut encoder, COPY);
-        let commands = encoder.finish();
-        let finished = thread_time();
-        queue.submit([commands]);
+        queue.submit([encoder.finish()]);
         // A software driver begins its own work meanwhile: this thread may have to wait for a processor.
         let submitted = thread_time() - submitting;
-        if std::env::var("DBG").is_ok() {
-            eprintln!("finish {:.3} submit {:.3}", finished - submitting, submitted - (finished - submitting));
-        }
         device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
         let whole = milliseconds(begin);
         let work = self.renderer.timing().work().iter().map(|&(name, time)| (PROCESSOR, name, f64::from(time)));
