@@ -1,4 +1,4 @@
-//! The figures that README.md, docs/lab/projection.md and docs/lab/bvh.md print are those of the CSVs in docs/. Where they are not, the
+//! The figures that README.md and pages of docs/lab/ print are those of the CSVs in docs/. Where they are not, the
 //! test prints what to write.
 
 use std::collections::BTreeMap;
@@ -227,6 +227,33 @@ fn the_sentences_about_the_integrators_are_those_of_their_csv() {
         ("docs/lab/flight.md", format!("DOP853 with error control takes {least} to {most} of its time")),
         ("docs/lab/flight.md", format!("RK4 {rk4} to {rk4s} times")),
     ]);
+}
+
+#[test]
+fn the_tables_of_bodies_are_those_of_their_csv() {
+    let rows = rows("docs/lab/bodies-growth.csv");
+    let cells = |kind: &str, [whose, part]: [&str; 2], column: &str| {
+        let row = rows.iter().find(|row| row["kind"] == kind && row["whose"] == whose && row["part"] == part);
+        row.map_or("– | –".to_owned(), |row| format!("{:.2} | {}", number(row, "exponent"), short(number(row, column), 2)))
+    };
+    let mut lines = String::new();
+    for (name, part) in [
+        ("processor together", ["processor", "together"]),
+        ("instances", ["processor", "instances and aurora"]),
+        ("lists of bodies", ["processor", "lists of bodies"]),
+        ("submission", ["processor", "submission"]),
+        ("passes together", ["pass", "together"]),
+    ] {
+        let (held, flying) = (cells("held", part, "microseconds_a_body"), cells("flying", part, "microseconds_a_body_and_order"));
+        writeln!(lines, "| {name} | {held} | {flying} |").unwrap();
+    }
+    stands("docs/lab/bodies.md", &lines);
+    let mut lines = String::new();
+    for (name, part) in [("all", "all"), ("largest buffer", "largest")] {
+        let [held, flying] = ["held", "flying"].map(|kind| cells(kind, ["memory", part], "bytes_a_body"));
+        writeln!(lines, "| {name} | {held} | {flying} |").unwrap();
+    }
+    stands("docs/lab/bodies.md", &lines);
 }
 
 #[test]

@@ -84,7 +84,7 @@ fn pages_say_the_commands_of_the_table() {
         words
     };
     let products = products();
-    for name in ["projection", "disk", "aurora", "bvh", "trace", "flight", "tessellation"] {
+    for name in ["projection", "disk", "aurora", "bvh", "trace", "flight", "tessellation", "bodies"] {
         let run = products.iter().find(|product| product.name == name).unwrap().runs[0].strip_prefix("lensrunner-lab ").unwrap();
         let page = std::fs::read_to_string(root().join(format!("docs/lab/{name}.md"))).unwrap();
         let said = page.lines().filter_map(|line| line.trim().strip_prefix("lab/run ")).map(|line| line.split(" #").next().unwrap());
