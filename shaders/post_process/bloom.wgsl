@@ -1,4 +1,5 @@
-// Bloom: the picture at a quarter of its size, halved a few times, then mixed together again.
+// Bloom: the picture at a quarter of its size (at a half of it where it is enlarged twice or more), halved a few times, then mixed together
+// again.
 
 @group(2) @binding(0) var source: texture_2d<f32>;
 @group(2) @binding(1) var linear_sampler: sampler;

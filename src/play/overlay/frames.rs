@@ -59,6 +59,10 @@ impl Frames {
     /// Adds a frame that took `milliseconds`, with the latest durations of its passes.
     pub fn push(&mut self, milliseconds: f64, passes: &[(&'static str, f32)]) {
         self.whole.push(milliseconds);
+        // Nobody asked for them, or they have not come yet.
+        if passes.is_empty() {
+            return;
+        }
         for (name, _) in passes {
             if !self.passes.iter().any(|(known, _)| known == name) {
                 self.passes.push((name, Durations::default()));

@@ -202,6 +202,10 @@ impl Timing {
     /// Times the passes of the frames to come, as from the beginning on, or no longer.
     pub fn set_timing(&mut self, timing: bool) {
         if let Some(inner) = &mut self.inner {
+            if timing && !inner.timing {
+                // What is known is of another time.
+                inner.latest.clear();
+            }
             inner.timing = timing;
         }
     }

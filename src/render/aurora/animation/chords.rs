@@ -28,8 +28,8 @@ const PIXELS: f64 = 0.5;
 /// Most ends of chords in all images together: 48 bytes each, in a buffer of 128 MiB.
 const MOST_ENDS: usize = 2_000_000;
 
-/// What was found for one frame is kept until camera and planet together have moved by this share of the planet's radius: streaks are bent
-/// alike that long.
+/// What was found for one frame is kept until camera and planet together have moved by this share of the planet's radius, or of the way from
+/// its ground if that is less: streaks are bent alike that long.
 const KEPT: f64 = 0.1;
 
 /// A number of chords, and what it was found for.
@@ -56,7 +56,8 @@ impl Chords {
     /// The number, if it still is right for these streaks where the rest is as in `now`.
     pub fn kept(&self, now: &Chords, segments: &[Segment]) -> Option<u32> {
         let moved = self.places[0].distance(now.places[0]) + self.places[1].distance(now.places[1]);
-        let is_kept = (self.orders, self.pixel) == (now.orders, now.pixel) && moved < KEPT * self.radius;
+        let way = (self.places[0].distance(self.places[1]) - self.radius).clamp(0.0, self.radius);
+        let is_kept = (self.orders, self.pixel) == (now.orders, now.pixel) && moved < KEPT * way;
         let fits = || ends(segments, self.count as usize, now.orders.count_ones()) <= MOST_ENDS;
         (is_kept && fits()).then_some(self.count)
     }
