@@ -28,8 +28,8 @@ const PIXELS: f64 = 0.5;
 /// Most ends of chords in all images together: 48 bytes each, in a buffer of 128 MiB.
 const MOST_ENDS: usize = 2_000_000;
 
-/// What was found for one frame is kept until camera and planet together have moved by this share of the planet's radius, or of the way from
-/// its ground if that is less: streaks are bent alike that long.
+/// What was found for one frame is kept until camera and planet together have moved by this share of the planet's radius, or of the way
+/// from its ground if that is less: streaks are bent alike that long.
 const KEPT: f64 = 0.1;
 
 /// A number of chords, and what it was found for.
