@@ -41,9 +41,10 @@ fn vertex(@builtin(vertex_index) i: u32) -> Spot {
     return Spot(vec4<f32>(star.place + corner * 2.0 / (frame.size * frame.enlargement), 0.0, 1.0), corner, star.colour * free);
 }
 
-/// Blended as 1 − (1 − a)(1 − b), which adds up light under the tone curve.
+/// The light of a star, and how much of what is there it takes the place of: no sum is brighter than white, nor than what white is dimmed
+/// to where flashes are reduced.
 @fragment
 fn fragment(in: Spot) -> @location(0) vec4<f32> {
     let light = display_light(in.colour * spot_share(in.place, frame.star_sigma), vec3<f32>(0.0), adapted.exposure);
-    return vec4<f32>(light * adapted.steadied, 0.0);
+    return vec4<f32>(light * adapted.steadied, max(light.r, max(light.g, light.b)));
 }

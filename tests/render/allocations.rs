@@ -56,11 +56,8 @@ const WARM: usize = 8;
 /// Frames that follow.
 const MOVING: usize = 24;
 
-/// What finding out the number of chords of an aurora's streaks allocates.
-const CHORDS: u64 = 4;
-
-/// Frames of a scene, a step of the clock apart, and at the end one once more: what placing, handing over and planning of each allocate,
-/// chords left out; and whether an image, a part of a curtain or a row of the aurora came.
+/// Frames of a scene, a step of the clock apart, and at the end one once more: what placing, handing over and planning of each allocate;
+/// and whether an image, a part of a curtain or a row of the aurora came.
 fn allocates(renderer: &mut Renderer, scene: &str) -> Vec<([u64; 3], bool)> {
     let config = GameConfig::default();
     let scene = load(scene).unwrap();
@@ -91,7 +88,7 @@ fn allocates(renderer: &mut Renderer, scene: &str) -> Vec<([u64; 3], bool)> {
         let part = aurora.map_or(0, |aurora| aurora.segments.len());
         let is_new = frame.placed.len() > images || part > parts || newest != row;
         (images, parts, row) = (frame.placed.len(), part.max(parts), newest);
-        ([placing.saturating_sub(if aurora.is_some() { CHORDS } else { 0 }), extracting, planning], is_new)
+        ([placing, extracting, planning], is_new)
     };
     (0..WARM + MOVING + 2).map(frame).collect()
 }

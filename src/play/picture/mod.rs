@@ -120,7 +120,7 @@ fn make_frame(
     let config = &now.session.config;
     // Times of an earlier frame will do.
     current.0.ration_aurora(&statistics.passes);
-    timed.0 = player.overlay || quality.hold().is_some() || current.0.rations_aurora();
+    timed.0 = player.overlay || quality.reads_passes() || current.0.rations_aurora();
     let asked = photo.map_or_else(|| settings(config), |photo| photo.settings(config));
     let mut settings = Settings { rise, ..quality.turned(&asked) };
     if is_cut(&mut last, sight(&now, *screen.get()), now.clock()) {

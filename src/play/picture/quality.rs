@@ -57,6 +57,11 @@ impl Quality {
         self.hold
     }
 
+    /// Whether the next choice may depend on how long the passes took: only then may a finer rung fit.
+    pub fn reads_passes(&self) -> bool {
+        self.hold.is_some() && self.rung > 0
+    }
+
     /// The settings on that rung.
     pub fn turned(&self, settings: &Settings) -> Settings {
         self.rung().map_or(*settings, |rung| turned(settings, &rung.steps))

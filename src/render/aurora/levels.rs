@@ -90,7 +90,7 @@ fn place(size: [u32; 2], level: u32) -> [[f32; 2]; 2] {
 }
 
 /// Number of sizes of depth tiles, for which the least and greatest depth are known.
-pub const DEPTH_TILES: u32 = 6;
+const DEPTH_TILES: u32 = 6;
 /// The least size of a depth tile, in pixels; as in walk.wgsl.
 pub const LEAST_DEPTH_TILE: u32 = 8;
 

@@ -47,7 +47,7 @@ impl Upscale {
             raster(device, label, &shader, stage, &[Some(frame_layout), None, Some(&layout)])
         };
         let stars_layout = self::layout(device, "stars over", ShaderStages::VERTEX_FRAGMENT, &[Slot::Numbers, Slot::Uniform]);
-        let blend = onto(wgpu::BlendFactor::One, wgpu::BlendFactor::OneMinusSrc);
+        let blend = onto(wgpu::BlendFactor::One, wgpu::BlendFactor::OneMinusSrcAlpha);
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(format, Some(blend))], depth: None };
         let groups = [Some(frame_layout), Some(&seen_layout(device)), Some(&stars_layout)];
         let stars = raster(device, "stars over", &module(device, "stars over", Pass::StarsOver), stage, &groups);

@@ -44,20 +44,23 @@ pub struct Chords {
     pixel: f64,
     /// The orders in which it was seen, a bit each.
     orders: u32,
+    /// Whether light bends, and is delayed.
+    light: [bool; 2],
 }
 
 impl Chords {
-    /// For a camera and a planet of this `radius` (r_s) at these places, seen in these images, by pixels of this angle (rad).
-    pub fn new(count: u32, places: [DVec3; 2], radius: f64, pixel: f64, departures: &[(Order, f64)]) -> Chords {
+    /// For a planet of this `radius` at this `place`, in r_s, seen in these images.
+    pub fn new(count: u32, view: &InstanceView, place: DVec3, radius: f64, departures: &[(Order, f64)]) -> Chords {
         let orders = departures.iter().fold(0, |orders, (order, _)| orders | 1 << order.number());
-        Chords { count, places, radius, pixel, orders }
+        let light = [view.settings.method.bends, view.settings.light_delay];
+        Chords { count, places: [view.camera.position, place], radius, pixel: view.pixel, orders, light }
     }
 
     /// The number, if it still is right for these streaks where the rest is as in `now`.
     pub fn kept(&self, now: &Chords, segments: &[Segment]) -> Option<u32> {
         let moved = self.places[0].distance(now.places[0]) + self.places[1].distance(now.places[1]);
         let way = (self.places[0].distance(self.places[1]) - self.radius).clamp(0.0, self.radius);
-        let is_kept = (self.orders, self.pixel) == (now.orders, now.pixel) && moved < KEPT * way;
+        let is_kept = (self.orders, self.pixel, self.light) == (now.orders, now.pixel, now.light) && moved < KEPT * way;
         let fits = || ends(segments, self.count as usize, now.orders.count_ones()) <= MOST_ENDS;
         (is_kept && fits()).then_some(self.count)
     }
@@ -95,6 +98,21 @@ struct Globe {
 /// A height in km at which a chord ends or has its middle, and for how long light is delayed there, s.
 type Height = [f64; 2];
 
+/// Most ends and middles of the chords of a streak: of a red one, with twice as many chords.
+const MOST_HEIGHTS: usize = 4 * MOST + 1;
+
+/// Ends and middles of a streak's chords, from the highest down.
+struct Heights {
+    count: usize,
+    all: [Height; MOST_HEIGHTS],
+}
+
+impl Heights {
+    fn list(&self) -> &[Height] {
+        &self.all[..self.count]
+    }
+}
+
 /// The middle of a part of a curtain at one pole.
 type Part<'a> = (&'a Segment, f64);
 
@@ -111,7 +129,7 @@ impl ChordInputs<'_, '_> {
         flags: u32,
     ) -> u32 {
         let ends = |chords: usize| ends(segments, chords, departures.len() as u32);
-        let poles: &[f64] = if flags & BOTH_POLES != 0 { &[1.0, -1.0] } else { &[1.0] };
+        let poles: &'static [f64] = if flags & BOTH_POLES != 0 { &[1.0, -1.0] } else { &[1.0] };
         let to_camera = self.view.camera.camera_from_rain();
         let mut chords = LEAST;
         let mut heights = self.heights(chords);
@@ -128,7 +146,13 @@ impl ChordInputs<'_, '_> {
     }
 
     /// The parts that are tested, by where the planet was at the time `began`.
-    fn sample<'a>(&self, segments: &'a [Segment], places: &RowPlaces, poles: &[f64], began: f64) -> impl Iterator<Item = Part<'a>> {
+    fn sample<'a>(
+        &self,
+        segments: &'a [Segment],
+        places: &RowPlaces,
+        poles: &'static [f64],
+        began: f64,
+    ) -> impl Iterator<Item = Part<'a>> + use<'a> {
         let axis = self.view.camera.position.normalize();
         let globe = self.globe(began);
         // The square of the distance from the axis.
@@ -148,12 +172,11 @@ impl ChordInputs<'_, '_> {
         // So many of each pole as make them all together.
         let step = segments.len().div_ceil(OTHERS / poles.len()).max(1);
         let others = poles.iter().flat_map(move |&pole| segments.iter().step_by(step).map(move |segment| (segment, pole)));
-        let others: Vec<Part> = others.collect();
         nearest.into_iter().filter_map(|(_, part)| part).chain(others)
     }
 
     /// Ends and middles of so many chords of a green streak, and of twice as many of a red one, from the highest down; as in streaks.wgsl.
-    fn heights(&self, chords: usize) -> [Vec<Height>; 2] {
+    fn heights(&self, chords: usize) -> [Heights; 2] {
         [(Line::Green, chords), (Line::Red, 2 * chords)].map(|(line, count)| {
             let [high, low] = self.heights[usize::from(line == Line::Red)];
             let end = |k: usize| {
@@ -161,21 +184,25 @@ impl ChordInputs<'_, '_> {
                 low + (high - low) * if line == Line::Red { left * left } else { left }
             };
             let height = |k: usize| 0.5 * (end(k / 2) + end(k.div_ceil(2)));
-            (0..=2 * count).map(height).map(|height| [height, lines::delays(height)[line as usize]]).collect()
+            let mut heights = Heights { count: 2 * count + 1, all: [[0.0; 2]; MOST_HEIGHTS] };
+            for (k, place) in heights.all[..heights.count].iter_mut().enumerate() {
+                *place = [height(k), lines::delays(height(k))[line as usize]];
+            }
+            heights
         })
     }
 
     /// Whether with chords between these heights every middle lies where its light is seen. Chords that are not seen count as right.
-    fn hold(&self, heights: &[Vec<Height>; 2], order: Order, began: f64, place: impl Fn(Height) -> DVec3, to_camera: &DMat4) -> bool {
-        let Some(low) = heights[0].last().map(|height| place(*height)) else { return true };
+    fn hold(&self, heights: &[Heights; 2], order: Order, began: f64, place: impl Fn(Height) -> DVec3, to_camera: &DMat4) -> bool {
+        let Some(low) = heights[0].list().last().map(|height| place(*height)) else { return true };
         let mut emission = began;
         for _ in 0..if self.view.settings.light_delay { SEARCH } else { 0 } {
             let Some((_, path)) = self.view.look(self.globe(emission).place(low), order, self.time - emission) else { return true };
             emission = self.time - path;
         }
         let globe = self.globe(emission);
-        heights.iter().zip(self.tops).all(|(heights, top)| {
-            let mut seen = [DVec3::ZERO; 4 * MOST + 1];
+        heights.iter().map(Heights::list).zip(self.tops).all(|(heights, top)| {
+            let mut seen = [DVec3::ZERO; MOST_HEIGHTS];
             for (seen, height) in seen.iter_mut().zip(heights) {
                 let Some((look, path)) = self.view.look(globe.place(place(*height)), order, self.time - emission) else { return true };
                 // As in shaders/geometry/project.wgsl.
@@ -198,5 +225,50 @@ impl Globe {
     /// A point in km in the dipole's axes, in r_s.
     fn place(&self, point: DVec3) -> DVec3 {
         self.centre + self.axes * point
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// For a planet of radius 0.4 at 5 r_s, seen from `way` above its ground.
+    fn chords(way: f64) -> Chords {
+        let place = DVec3::new(0.0, 5.0, 0.0);
+        let camera = place + DVec3::new(0.4 + way, 0.0, 0.0);
+        Chords { count: 4, places: [camera, place], radius: 0.4, pixel: 1e-3, orders: 2, light: [true; 2] }
+    }
+
+    fn moved(from: Chords, by: f64) -> Chords {
+        Chords { places: [from.places[0] + DVec3::new(0.0, 0.0, by), from.places[1]], ..from }
+    }
+
+    #[test]
+    fn a_number_is_kept_over_a_tenth_of_the_way() {
+        for (way, kept) in [(5.0, 0.04), (0.1, 0.01)] {
+            let before = chords(way);
+            assert_eq!(before.kept(&moved(before, 0.99 * kept), &[]), Some(4), "from {way} above");
+            assert_eq!(before.kept(&moved(before, 1.01 * kept), &[]), None, "from {way} above");
+        }
+        // Where the camera was in the ground.
+        assert_eq!(chords(-0.2).kept(&chords(-0.2), &[]), None);
+    }
+
+    #[test]
+    fn another_way_of_looking_needs_another_number() {
+        let before = chords(5.0);
+        let others = [Chords { pixel: 2e-3, ..before }, Chords { orders: 6, ..before }, Chords { light: [true, false], ..before }];
+        for other in others {
+            assert_eq!(before.kept(&other, &[]), None, "{other:?}");
+        }
+    }
+
+    #[test]
+    fn more_streaks_than_fit_need_another_number() {
+        let before = chords(5.0);
+        let part = |streaks| Segment { streaks, ..Segment::default() };
+        let most = (MOST_ENDS / 9) as u32;
+        assert_eq!(before.kept(&before, &[part(most)]), Some(4));
+        assert_eq!(before.kept(&before, &[part(most), part(1)]), None);
     }
 }

@@ -374,8 +374,7 @@ impl AuroraAnimation {
         };
         let middle = |segment: &Segment, wait: f64| self.rows.middle_of(segment, wait + ahead);
         let departures = &images.departures[..images.frame.instances.len()];
-        let places = [globe.view.camera.position, globe.position];
-        let so_many = |count| Chords::new(count, places, self.planet.radius, globe.view.pixel, departures);
+        let so_many = |count| Chords::new(count, globe.view, globe.position, self.planet.radius, departures);
         let kept = self.chords.and_then(|chords| chords.kept(&so_many(0), segments));
         let chords = kept.unwrap_or_else(|| bend.chords(segments, &newest.places, middle, departures, flags));
         // A picture that is made once does not depend on those before.
