@@ -1,6 +1,6 @@
 //! The game without its window: screens, keys, time, and the player's commands to the ship. Runs in a minimal app, for tests.
 
-use crate::play::player_state::{Flown, PlayerState};
+use crate::play::player_state::{Flown, PlayerState, TAP};
 use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
 
@@ -74,6 +74,7 @@ pub fn begin(world: &mut World, screen: Screen) {
     player.orbit = Orbit::default();
     player.flown = Flown::default();
     player.assist = None;
+    player.assist_held = None;
     player.fired = false;
     *world.resource_mut::<MouseTurn>() = MouseTurn::default();
     if let Some(pilot) = pilot {
@@ -118,6 +119,7 @@ fn read_keys(
     typing: Option<Res<EguiWantsInput>>,
     mut session: ResMut<Session>,
     (mut player, mut menu): (ResMut<PlayerState>, ResMut<Menu>),
+    (chase, real): (Option<Res<Chase>>, Res<Time<Real>>),
     mut actions: MessageWriter<MenuAction>,
     mut commands: Commands,
 ) {
@@ -174,9 +176,7 @@ fn read_keys(
     if input.pushed(Action::ToggleHud) {
         player.hud_off = !player.hud_off;
     }
-    if input.pushed(Action::ToggleAssist) {
-        player.assist = Some(!player.assisted(&session.config));
-    }
+    hold_assist(&input, &mut player, &session, chase.is_some_and(|chase| chase.quarry.is_some()), real.delta_secs_f64());
     let begins = input.stick().thrust != glam::DVec3::ZERO || input.holds(Action::LookAtTarget) || input.holds(Action::ToggleAutopilot);
     player.begun |= player.pilot.is_some() || begins;
     if input.pushed(Action::ToggleAutopilot) {
@@ -186,6 +186,19 @@ fn read_keys(
     if faster != 0.0 {
         let pace = session.config.clock.pace * faster.exp2();
         session.config.clock.pace = pace.clamp(0.05, 24.0);
+    }
+}
+
+/// The assist's key: a tap chooses what it holds to, held it matches the target's motion. `seconds` of wall time have passed.
+fn hold_assist(input: &PlayerInput, player: &mut PlayerState, session: &Session, has_target: bool, seconds: f64) {
+    let held = input.holds(Action::ToggleAssist);
+    let pushed = input.pushed(Action::ToggleAssist);
+    let before = player.assist_held;
+    player.assist_held = held.then(|| before.map_or(0.0, |before| before + seconds));
+    // A short press may begin and end within a frame.
+    let tapped = !held && before.map_or(pushed, |before| before < TAP);
+    if tapped {
+        player.assist = Some(player.assisted(&session.config).next(has_target));
     }
 }
 
@@ -267,6 +280,7 @@ fn read_commands(
     }
     *commands = PlayerCommands {
         assist: player.assisted(&session.config),
+        matching: player.matching(),
         autopilot: player.autopilot,
         looking: player.looking,
         fire: std::mem::take(&mut player.fired) || input.holds(Action::Fire),

@@ -5,7 +5,11 @@ use crate::play::camera::{CameraView, Follower};
 use crate::play::input::gaze::Gaze;
 use crate::scene::GameConfig;
 use crate::scene::pilot_kind::PilotKind;
+use crate::sim::assist::AssistMode;
 use bevy::prelude::*;
+
+/// The assist's key chooses another mode if it is let go before this, in seconds; from then on it matches.
+pub const TAP: f64 = 0.25;
 
 /// How the player plays: what is not in `game.toml`.
 #[derive(Resource, Clone, Debug, Default)]
@@ -19,7 +23,9 @@ pub struct PlayerState {
     /// The dev overlay is on.
     pub overlay: bool,
     /// The flight assist as the player switched it in this chase; None: as it is configured.
-    pub assist: Option<bool>,
+    pub assist: Option<AssistMode>,
+    /// For how long its key has been held, in seconds of wall time; None while it is not.
+    pub assist_held: Option<f64>,
     /// Who has flown in this chase.
     pub flown: Flown,
     /// Who flies instead of the player from the start, as asked for on the command line.
@@ -56,8 +62,13 @@ pub struct Flown {
 }
 
 impl PlayerState {
-    /// Whether the assist is on: as the player switched it, else as `config` says.
-    pub fn assisted(&self, config: &GameConfig) -> bool {
-        self.assist.unwrap_or(config.assist.enabled)
+    /// How the assist helps: as the player switched it, else as `config` says.
+    pub fn assisted(&self, config: &GameConfig) -> AssistMode {
+        self.assist.unwrap_or(AssistMode::of(config))
+    }
+
+    /// Whether the assist's key is held long enough to match the target's motion.
+    pub fn matching(&self) -> bool {
+        self.assist_held.is_some_and(|held| held >= TAP)
     }
 }

@@ -10,6 +10,12 @@ use crate::user_file::short;
 pub enum PilotKind {
     /// As one who plays for the first time: full thrust to the marker, with assist.
     Naive,
+    /// A person at the first flight who does not heed the signs on the screen.
+    Ignoring,
+    /// A person at the first flight who does as the signs say.
+    Person,
+    /// A person with practice.
+    Practised,
     /// The autopilot, slow to see and to decide.
     Apprentice,
     /// The autopilot.
@@ -21,13 +27,35 @@ pub enum PilotKind {
 
 impl PilotKind {
     /// All.
-    pub const ALL: [PilotKind; 4] = [PilotKind::Naive, PilotKind::Apprentice, PilotKind::Expert, PilotKind::Hands];
+    pub const ALL: [PilotKind; 7] = [
+        PilotKind::Naive,
+        PilotKind::Ignoring,
+        PilotKind::Person,
+        PilotKind::Practised,
+        PilotKind::Apprentice,
+        PilotKind::Expert,
+        PilotKind::Hands,
+    ];
     /// Those who try to win, the least able first.
-    pub const RATED: [PilotKind; 3] = [PilotKind::Naive, PilotKind::Apprentice, PilotKind::Expert];
+    pub const RATED: [PilotKind; 6] =
+        [PilotKind::Naive, PilotKind::Ignoring, PilotKind::Person, PilotKind::Practised, PilotKind::Apprentice, PilotKind::Expert];
 
     /// As files and the command line write it.
     pub fn name(self) -> &'static str {
-        ["naive", "apprentice", "expert", "hands"][self as usize]
+        ["naive", "ignoring", "person", "practised", "apprentice", "expert", "hands"][self as usize]
+    }
+
+    /// How it flies, in a few words.
+    pub fn about(self) -> &'static str {
+        match self {
+            PilotKind::Naive => "nose to the marker, full thrust, assist: sees all at once and never errs",
+            PilotKind::Ignoring => "a person at the first flight who heeds no sign of the screen",
+            PilotKind::Person => "a person at the first flight who does as the signs say",
+            PilotKind::Practised => "a person who has flown before",
+            PilotKind::Apprentice => "the autopilot, slow to see and to decide",
+            PilotKind::Expert => "the autopilot",
+            PilotKind::Hands => "hands that throw the ship about",
+        }
     }
 }
 
@@ -42,6 +70,6 @@ impl FromStr for PilotKind {
 
     fn from_str(name: &str) -> Result<Self, String> {
         let found = PilotKind::ALL.into_iter().find(|pilot| pilot.name() == name);
-        found.ok_or_else(|| format!("{:?} is no pilot; known: naive, apprentice, expert, hands", short(name)))
+        found.ok_or_else(|| format!("{:?} is no pilot; known: {}", short(name), PilotKind::ALL.map(PilotKind::name).join(", ")))
     }
 }

@@ -7,7 +7,7 @@ use bevy::prelude::*;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::assist::Stick;
+use super::assist::{AssistMode, Stick};
 use super::bolts::Gun;
 use super::goals::{ActiveMission, Progress};
 use super::history::History;
@@ -133,7 +133,15 @@ impl Action {
             return Err(format!("for: {span} must be above 0 and at most {LONGEST} r_s/c"));
         }
         let stick = Stick { thrust: self.thrust.into(), turn: self.turn.into() };
-        Ok((PlayerCommands { fire: self.fire, looking: self.look, assist: self.assist, ..PlayerCommands::holding(&stick) }, span))
+        Ok((
+            PlayerCommands {
+                fire: self.fire,
+                looking: self.look,
+                assist: if self.assist { AssistMode::Orbit } else { AssistMode::Off },
+                ..PlayerCommands::holding(&stick)
+            },
+            span,
+        ))
     }
 }
 

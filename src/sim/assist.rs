@@ -13,6 +13,38 @@ use super::flight::Command;
 use super::pilot::rollout::{Point, advance};
 use super::ship::Engine;
 
+/// What the flight assist holds to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AssistMode {
+    /// No help: free flight.
+    #[default]
+    Off,
+    /// Drift against the circular orbit through the ship fades.
+    Orbit,
+    /// Drift across the way to the target fades.
+    Target,
+}
+
+impl AssistMode {
+    /// As `game.toml` says.
+    pub fn of(config: &GameConfig) -> AssistMode {
+        match (config.assist.enabled, config.assist.reference.as_str()) {
+            (false, _) => AssistMode::Off,
+            (true, "target") => AssistMode::Target,
+            (true, _) => AssistMode::Orbit,
+        }
+    }
+
+    /// What the key chooses next; without a target there is nothing to hold to but the orbit.
+    pub fn next(self, has_target: bool) -> AssistMode {
+        match self {
+            AssistMode::Off => AssistMode::Orbit,
+            AssistMode::Orbit if has_target => AssistMode::Target,
+            AssistMode::Orbit | AssistMode::Target => AssistMode::Off,
+        }
+    }
+}
+
 /// How the player deflects the sticks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stick {
@@ -30,7 +62,7 @@ pub enum Reference {
     Static,
     /// The circular free orbit through the ship, in the plane and sense of its motion.
     Orbit,
-    /// A ship with this dx/dT (c).
+    /// What has this dx/dT (c): a ship, or a place for 0.
     Target(DVec3),
 }
 
@@ -84,13 +116,29 @@ pub fn assisted(state: &ShipState, stick: &Stick, engine: &Engine, reference: Re
         }
     }
     command.thrust = command.thrust.clamp_length_max(engine.max_thrust);
+    kept_off(state, command, engine, settings)
+}
+
+/// A command, or the way off the hole where the ship falls to it.
+pub fn kept_off(state: &ShipState, mut command: Command, engine: &Engine, settings: &AssistSettings) -> Assisted {
     let avoiding = settings.avoid_radius.is_some_and(|radius| falls_below(state, radius));
     if avoiding {
         let away = Point::from(state).from_local(AWAY);
-        command.thrust = to_body * away * engine.max_thrust;
+        command.thrust = state.attitude.conjugate() * away * engine.max_thrust;
     }
     Assisted { command, avoiding }
 }
+
+/// The command that takes away all motion against `reference`, with the whole engine if need be; turns are the stick's.
+pub fn matched(state: &ShipState, stick: &Stick, engine: &Engine, reference: Reference) -> Command {
+    let drift = state.attitude.conjugate() * drift(state, reference);
+    let thrust = (-drift / MATCHING_TIME).clamp_length_max(engine.max_thrust);
+    Command { thrust, ..direct(stick, engine) }
+}
+
+/// Motion against the target is taken away in this time where the engine is strong enough, in r_s/c: a few steps of the clock, so that it
+/// brakes fully almost to the end and does not swing past it.
+const MATCHING_TIME: f64 = 0.25;
 
 /// The rain-frame momentum (c) of what rests in `reference` at the ship's place; the rain's own where there is no such thing.
 fn reference_momentum(state: &ShipState, reference: Reference) -> DVec3 {

@@ -21,6 +21,9 @@ pub struct BalanceArgs {
     /// Names, files or folders of missions [default: all of assets/missions].
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub missions: Vec<String>,
+    /// Who flies.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', default_values_t = PilotKind::RATED)]
+    pub pilots: Vec<PilotKind>,
     /// Flights of each.
     #[arg(long, value_name = "N", default_value_t = 200, allow_negative_numbers = true, value_parser = whole::<u32>(1, 100_000))]
     pub seeds: u32,
@@ -51,14 +54,20 @@ pub struct BalanceRow {
 }
 
 /// Every difficulty and pilot, in the order of the tables.
-fn pairs() -> impl Iterator<Item = (Difficulty, PilotKind)> {
-    Difficulty::ALL.into_iter().flat_map(|difficulty| PilotKind::RATED.into_iter().map(move |pilot| (difficulty, pilot)))
+fn pairs(pilots: &[PilotKind]) -> impl Iterator<Item = (Difficulty, PilotKind)> {
+    Difficulty::ALL.into_iter().flat_map(move |difficulty| pilots.iter().map(move |&pilot| (difficulty, pilot)))
 }
 
 /// Flies them all; `done` is told of each.
-fn fly_all(missions: &[Scene], config: &GameConfig, seeds: std::ops::Range<u64>, done: &(dyn Fn() + Sync)) -> Vec<BalanceRow> {
+fn fly_all(
+    missions: &[Scene],
+    config: &GameConfig,
+    pilots: &[PilotKind],
+    seeds: std::ops::Range<u64>,
+    done: &(dyn Fn() + Sync),
+) -> Vec<BalanceRow> {
     let all: Vec<_> = (0..missions.len())
-        .flat_map(|mission| pairs().map(move |(difficulty, pilot)| (mission, difficulty, pilot)))
+        .flat_map(|mission| pairs(pilots).map(move |(difficulty, pilot)| (mission, difficulty, pilot)))
         .flat_map(|(mission, difficulty, pilot)| seeds.clone().map(move |seed| (mission, difficulty, pilot, seed)))
         .collect();
     all.into_par_iter()
@@ -82,10 +91,10 @@ pub fn run_command(args: &BalanceArgs) -> Result<(), CommandError> {
     let names = if args.missions.is_empty() { scene::mission_names() } else { args.missions.clone() };
     let missions = names.iter().map(|name| missions(name)).collect::<Result<Vec<_>, _>>()?.concat();
     std::fs::create_dir_all(&args.output).map_err(|error| named(&args.output, error))?;
-    let flights = missions.len() as u64 * 9 * u64::from(args.seeds);
+    let flights = missions.len() as u64 * 3 * args.pilots.len() as u64 * u64::from(args.seeds);
     let bar = indicatif::ProgressBar::new(flights);
     let seeds = seeds(args)?;
-    let rows = fly_all(&missions, &config, seeds, &|| bar.inc(1));
+    let rows = fly_all(&missions, &config, &args.pilots, seeds, &|| bar.inc(1));
     bar.finish_and_clear();
     for (file, text) in [("balance.csv", csv(&missions, &rows)), ("balance.md", table(&missions, &rows, args))] {
         let path = args.output.join(file);
@@ -143,26 +152,37 @@ fn table(missions: &[Scene], rows: &[BalanceRow], args: &BalanceArgs) -> String 
     let seeds = args.seeds;
     let named = if args.missions.is_empty() { String::new() } else { format!(" --missions {}", args.missions.join(",")) };
     let first = if args.first == 0 { String::new() } else { format!(" --first {}", args.first) };
+    let pilots = &args.pilots;
+    let by = if pilots == &PilotKind::RATED { String::new() } else { format!(" --pilots {}", join(pilots, ",")) };
     let mut text = format!(
-        "# Balance\n\nHow missions end when nobody sits at the controls, {seeds} flights each. `naive` flies nose to the marker with full thrust and \
-         assist,\n`apprentice` and `expert` are the autopilot, slow and quick. Scores are medians of won flights: \
-         r_s/c on\nthe mission's clock, or c of Δv where it scores fuel.\n\nMade by `lensrunner balance --seeds {seeds}{first}{named}`.\n\n| mission | difficulty | naive | apprentice | expert | \
-         score naive | score expert | how the others end |\n|---|---|---|---|---|---|---|---|\n"
+        "# Balance\n\nShare of {seeds} flights that are won, and how the others end. Scores are medians of won flights: r_s/c on the mission's \
+         clock, or\nc of Δv where it scores fuel.\n\n| pilot | flies |\n|---|---|\n"
     );
+    for pilot in pilots {
+        _ = writeln!(text, "| `{pilot}` | {} |", pilot.about());
+    }
+    _ = writeln!(text, "\nMade by `lensrunner balance --seeds {seeds}{first}{named}{by}`.\n");
+    let [slow, quick] = [pilots.first(), pilots.last()].map(|pilot| pilot.copied().unwrap_or_default());
+    _ = writeln!(text, "| mission | difficulty | {} | score {slow} | score {quick} | how the others end |", join(pilots, " | "));
+    _ = writeln!(text, "|---|---|{}---|---|---|", "---|".repeat(pilots.len()));
     for (index, scene) in missions.iter().enumerate() {
         let Some(mission) = &scene.mission else { continue };
         for difficulty in Difficulty::ALL {
             let of = |pilot: PilotKind| {
                 rows.iter().filter(move |row| row.mission == index && row.difficulty == difficulty && row.pilot == pilot)
             };
-            let share = |pilot: PilotKind| format!("{:.0} %", 100.0 * wins(of(pilot)));
-            let [naive, apprentice, expert] = PilotKind::RATED.map(share);
-            let [slow, _, quick] = PilotKind::RATED.map(|pilot| middle(of(pilot), mission));
+            let shares: Vec<String> = pilots.iter().map(|&pilot| format!("{:.0} %", 100.0 * wins(of(pilot)))).collect();
+            let [slow, quick] = [slow, quick].map(|pilot| middle(of(pilot), mission));
             let ends = ends(rows.iter().filter(|row| row.mission == index && row.difficulty == difficulty));
-            _ = writeln!(text, "| {} | {difficulty} | {naive} | {apprentice} | {expert} | {slow} | {quick} | {ends} |", mission.title);
+            _ = writeln!(text, "| {} | {difficulty} | {} | {slow} | {quick} | {ends} |", mission.title, shares.join(" | "));
         }
     }
     text
+}
+
+/// Names, one after the other.
+fn join(pilots: &[PilotKind], between: &str) -> String {
+    pilots.iter().map(|pilot| pilot.name()).collect::<Vec<_>>().join(between)
 }
 
 /// The median of the scores of won flights.

@@ -12,6 +12,7 @@ pub mod check;
 pub mod clock;
 pub mod flight;
 pub mod goals;
+pub mod guidance;
 pub mod hash;
 pub mod history;
 pub mod moment;
@@ -28,6 +29,7 @@ pub mod sight;
 pub mod simulate;
 pub mod snapshot;
 pub mod sweep;
+pub mod target;
 
 use bevy::app::PluginGroupBuilder;
 use bevy::prelude::*;

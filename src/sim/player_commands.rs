@@ -4,10 +4,13 @@ use bevy::prelude::*;
 use glam::DVec3;
 
 use super::SimSet;
-use super::assist::{AssistSettings, Reference, Stick, assisted, direct};
+use super::assist::{AssistMode, AssistSettings, Assisted, Reference, Stick, assisted, direct, kept_off, matched};
 use super::bolts::Trigger;
+use super::clock::Clock;
 use super::ship::{Controls, Engine, Manual, Player, ShipMotion};
+use super::target::Targets;
 use crate::scene::GameConfig;
+use crate::spacetime::matter::ShipState;
 
 /// The player's commands in a step. They are all of the player that the simulation knows, so a replay is a list of these.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
@@ -16,8 +19,10 @@ pub struct PlayerCommands {
     pub thrust: [i8; 3],
     /// Turn about the body axes (pitch up, yaw left, roll left), each from −127 to 127.
     pub turn: [i8; 3],
-    /// The flight assist helps.
-    pub assist: bool,
+    /// How the flight assist helps.
+    pub assist: AssistMode,
+    /// The assist takes away all motion against the target.
+    pub matching: bool,
     /// The autopilot flies instead.
     pub autopilot: bool,
     /// The player looks at the target.
@@ -31,7 +36,16 @@ pub struct PlayerCommands {
 impl Default for PlayerCommands {
     fn default() -> Self {
         let pace = GameConfig::default().clock.pace;
-        PlayerCommands { thrust: [0; 3], turn: [0; 3], assist: false, autopilot: false, looking: false, fire: false, pace }
+        PlayerCommands {
+            thrust: [0; 3],
+            turn: [0; 3],
+            assist: AssistMode::Off,
+            matching: false,
+            autopilot: false,
+            looking: false,
+            fire: false,
+            pace,
+        }
     }
 }
 
@@ -95,26 +109,42 @@ pub fn choose_pilot(player_commands: Res<PlayerCommands>, ships: Query<(Entity, 
     }
 }
 
+impl PlayerCommands {
+    /// Whether they need to know how the target moves.
+    pub fn needs_target(&self) -> bool {
+        self.matching || self.assist == AssistMode::Target
+    }
+
+    /// What they make of a ship in this state; `target` is the target's dx/dT (c) as far as it is known.
+    pub fn command(&self, state: &ShipState, engine: &Engine, target: Option<DVec3>, settings: &AssistSettings) -> Assisted {
+        let stick = self.stick();
+        let free = |command| Assisted { command, avoiding: false };
+        match (self.matching, self.assist, target) {
+            (true, AssistMode::Off, Some(velocity)) => free(matched(state, &stick, engine, Reference::Target(velocity))),
+            (true, _, Some(velocity)) => kept_off(state, matched(state, &stick, engine, Reference::Target(velocity)), engine, settings),
+            (_, AssistMode::Off, _) => free(direct(&stick, engine)),
+            (_, AssistMode::Target, Some(velocity)) => assisted(state, &stick, engine, Reference::Target(velocity), settings),
+            (_, AssistMode::Orbit | AssistMode::Target, _) => assisted(state, &stick, engine, Reference::Orbit, settings),
+        }
+    }
+}
+
 type ByHand = (With<Player>, With<Manual>);
 
 /// The player's commands become the ship's controls.
 fn apply_commands(
-    player_commands: Res<PlayerCommands>,
-    control: Res<ManualControl>,
+    (player_commands, control, clock): (Res<PlayerCommands>, Res<ManualControl>, Res<Clock>),
+    targets: Targets,
     mut avoiding: ResMut<Avoiding>,
-    mut ships: Query<(&ShipMotion, &mut Engine, &mut Controls, Option<&mut Trigger>), ByHand>,
+    mut ships: Query<(Entity, &ShipMotion, &mut Engine, &mut Controls, Option<&mut Trigger>), ByHand>,
 ) {
     avoiding.0 = false;
-    for (motion, mut engine, mut controls, trigger) in &mut ships {
+    for (ship, motion, mut engine, mut controls, trigger) in &mut ships {
         engine.max_rate = control.turn_rate / player_commands.pace;
-        let stick = player_commands.stick();
-        controls.0 = if player_commands.assist {
-            let help = assisted(&motion.0, &stick, &engine, Reference::Orbit, &control.assist);
-            avoiding.0 = help.avoiding;
-            help.command
-        } else {
-            direct(&stick, &engine)
-        };
+        let known = player_commands.needs_target().then(|| targets.known(ship, &motion.0, clock.time)).flatten();
+        let help = player_commands.command(&motion.0, &engine, known.map(|known| known.point.velocity()), &control.assist);
+        avoiding.0 = help.avoiding;
+        controls.0 = help.command;
         if let Some(mut trigger) = trigger {
             trigger.pulled = player_commands.fire;
         }

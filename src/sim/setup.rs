@@ -12,12 +12,14 @@ use crate::scene::{GameConfig, Scene};
 use crate::spacetime::Observer;
 use crate::spacetime::matter::ShipState;
 
+use super::assist::AssistMode;
 use super::bolts::{Bolts, Gun, Hits, Trigger};
 use super::clock::Clock;
 use super::goals::{ActiveMission, Progress};
 use super::history::History;
 use super::pilot::beginner::Beginner;
 use super::pilot::jerky::Jerky;
+use super::pilot::person::Person;
 use super::pilot::{Chance, PilotState, Skill, Skills};
 use super::player_commands::{ManualControl, PlayerCommands};
 use super::rules::{Chase, ChaseRules, begin_chase};
@@ -35,7 +37,7 @@ pub fn start(world: &mut World, scene: &Scene, config: &GameConfig, seed: u64) {
     world.insert_resource(ManualControl::from(config));
     world.insert_resource(PlayerCommands {
         autopilot: true,
-        assist: config.assist.enabled,
+        assist: AssistMode::of(config),
         pace: config.clock.pace,
         ..PlayerCommands::default()
     });
@@ -90,7 +92,9 @@ pub fn app_of(scene: &Scene, config: &GameConfig, seed: u64) -> App {
 /// How well the autopilot of a kind of pilot flies.
 fn skill(pilot: PilotKind) -> Skill {
     match pilot {
-        PilotKind::Naive | PilotKind::Expert | PilotKind::Hands => Skill::default(),
+        PilotKind::Naive | PilotKind::Ignoring | PilotKind::Person | PilotKind::Practised | PilotKind::Expert | PilotKind::Hands => {
+            Skill::default()
+        }
         PilotKind::Apprentice => Skill { replan_period: 6.0, horizon: 20.0, reaction_delay: 4.0 },
     }
 }
@@ -102,10 +106,17 @@ pub fn board(world: &mut World, pilot: PilotKind) {
     for ship in own {
         match pilot {
             PilotKind::Naive => _ = world.entity_mut(ship).insert(Beginner::default()),
+            PilotKind::Ignoring | PilotKind::Person | PilotKind::Practised => give_to_person(world, ship, pilot),
             PilotKind::Hands => give_to_hands(world, ship),
             PilotKind::Apprentice | PilotKind::Expert => (),
         }
     }
+}
+
+/// Lets somebody with a person's limits fly a ship.
+fn give_to_person(world: &mut World, ship: Entity, kind: PilotKind) {
+    let seed = world.get_resource_mut::<Chance>().map_or(0, |mut chance| chance.0.random());
+    world.entity_mut(ship).insert(Person::new(kind, seed));
 }
 
 /// Lets seeded hands fly a ship.

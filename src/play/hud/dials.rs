@@ -9,6 +9,7 @@ use crate::play::hud::{BETWEEN, MARGIN};
 use crate::play::player_state::PlayerState;
 use crate::play::session::Session;
 use crate::scene::pilot_kind::PilotKind;
+use crate::sim::assist::AssistMode;
 
 /// Fuel is low below this share of a full tank.
 pub const LOW_FUEL: f64 = 0.15;
@@ -163,8 +164,10 @@ fn state(
         (true, ..) => "hud-replay",
         (_, true, _) if player.pilot == Some(PilotKind::Hands) => "hud-hands",
         (_, true, _) => "hud-autopilot",
-        (_, _, true) => "hud-assist",
-        _ => "hud-free-flight",
+        _ if player.matching() => "hud-matching",
+        (_, _, AssistMode::Orbit) => "hud-assist",
+        (_, _, AssistMode::Target) => "hud-assist-target",
+        (_, _, AssistMode::Off) => "hud-free-flight",
     });
     let view = language.say(match player.view {
         _ if going.replayed => "hud-view-replay",

@@ -221,6 +221,7 @@ config! {
     /// Flight assistance.
     assist: Assist {
         enabled: bool = true, Switch, "", "damps drift and turning; off is pure free flight";
+        reference: String = "orbit", Choice(&["orbit", "target"]), "", "against what drift is damped: the circular orbit, or the target's motion";
         damping_time: f64 = 3.0, number(0.1, 100.0), "r_s/c", "time in which unwanted drift fades";
         avoid_hole: bool = true, Switch, "", "pushes away from orbits that end in the hole";
         avoid_radius: f64 = 2.0, number(1.05, 50.0), "r_s", "closest approach the assistance allows";
@@ -243,7 +244,7 @@ config! {
         yaw_right: String = "ArrowRight PadRightStickRight", Buttons, "", "nose right";
         roll_left: String = "KeyQ PadLeft", Buttons, "", "roll left";
         roll_right: String = "KeyE PadRight", Buttons, "", "roll right";
-        toggle_assist: String = "KeyZ PadEast", Buttons, "", "flight assistance on or off";
+        toggle_assist: String = "KeyZ PadEast", Buttons, "", "flight assistance: orbit, target, off; held, it matches the target's motion";
         toggle_autopilot: String = "KeyP PadNorth", Buttons, "", "autopilot on or off";
         toggle_camera: String = "KeyC PadWest", Buttons, "", "cockpit or third person";
         look_at_target: String = "KeyV PadLeftTrigger", Buttons, "", "look at the target while held";

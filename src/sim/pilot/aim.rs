@@ -3,79 +3,154 @@
 use glam::DVec3;
 
 use super::rollout::{PlannedBurn, Point, advance};
-use crate::sim::bolts::{HIT_RADIUS, LIFE, bolt_momentum};
+use crate::sim::bolts::{HIT_RADIUS, LIFE, bolt_momentum, nearest};
 use crate::spacetime::matter::ShipState;
 
 /// Step of a trial, in r_s/c.
 const STEP: f64 = 0.25;
+/// Directions tried in the plane of shooter, hole and target.
+const FAN: usize = 32;
 /// Corrections of a direction before it is given up.
 const CORRECTIONS: usize = 6;
-/// Directions tried in the plane of shooter, hole and target where the direct one fails.
-const FAN: usize = 16;
+/// Turn by which the change of the miss is measured, in radians.
+const PROBE: f64 = 2e-3;
+/// A correction turns by at most this, in radians: farther off, the miss is no guide.
+const MOST_TURN: f64 = 0.15;
 /// A shot is good that misses by less than this share of the hit radius: the rest is for what the pilot does not know.
 const SHARE: f64 = 0.5;
-/// A correction turns by at most this, in radians: farther off, the miss is no guide.
-const MOST_TURN: f64 = 0.4;
+
+/// Where to fire.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aim {
+    /// On rest-frame axes, a unit vector.
+    pub direction: DVec3,
+    /// By how much it may be off, in radians.
+    pub tolerance: f64,
+    /// T until the hit, in r_s/c.
+    pub time: f64,
+    /// The bolt goes round the hole the other way than the target is.
+    pub round: bool,
+}
 
 /// A trial shot.
 #[derive(Clone, Copy, Debug)]
 struct Trial {
     /// From the bolt to the target where they are nearest, in r_s.
     miss: DVec3,
-    /// How far the bolt has come by then, in r_s.
+    /// How far the bolt has come by then, in r_s, and in which T.
     way: f64,
+    time: f64,
+    /// Whether it went round the hole the other way.
+    round: bool,
 }
 
-/// The direction in which to fire at `target`, on rest-frame axes, and by how much it may be off, in radians; None where no shot is good.
-/// Round the hole, too, if need be.
-pub fn lead(own: &ShipState, target: &Point, burn: &PlannedBurn) -> Option<(DVec3, f64)> {
-    let straight = (target.x - own.position).try_normalize()?;
-    let shoot = |direction| try_shot(own, direction, target, burn);
-    refine(straight, shoot).or_else(|| {
-        let inward = -own.position.normalize();
+/// What is fired at: where it is, and what it burns.
+#[derive(Clone, Copy, Debug)]
+pub struct Mark<'a> {
+    /// The shooter.
+    pub own: &'a ShipState,
+    /// The target.
+    pub target: Point,
+    /// What it burns.
+    pub burn: PlannedBurn,
+}
+
+/// The direction of the quickest hit; None where no shot is good. Round the hole, too.
+pub fn lead(own: &ShipState, target: &Point, burn: &PlannedBurn) -> Option<Aim> {
+    let mark = Mark { own, target: *target, burn: *burn };
+    mark.hits().into_iter().min_by(|a, b| a.time.total_cmp(&b.time))
+}
+
+impl Mark<'_> {
+    /// The directions that hit, one for each valley of the miss over the plane of shooter, hole and target.
+    pub fn hits(&self) -> Vec<Aim> {
+        let inward = -self.own.position.normalize();
+        let straight = self.target.x - self.own.position;
         let side = straight.reject_from(inward).try_normalize().unwrap_or_else(|| inward.any_orthonormal_vector());
-        let fan = (0..FAN).map(|k| {
-            let angle = std::f64::consts::PI * (2.0 * (k as f64 + 0.5) / FAN as f64 - 1.0);
-            inward * angle.cos() + side * angle.sin()
-        });
-        let best = fan.map(|direction| (direction, shoot(direction).miss.length_squared())).min_by(|a, b| a.1.total_cmp(&b.1))?;
-        refine(best.0, shoot)
-    })
+        let fan: Vec<_> = (0..FAN)
+            .map(|k| {
+                let angle = std::f64::consts::TAU * k as f64 / FAN as f64;
+                let direction = inward * angle.cos() + side * angle.sin();
+                (direction, self.shoot(direction).miss.length())
+            })
+            .collect();
+        let valley = |k: &usize| {
+            let [before, here, after] = [k + FAN - 1, *k, k + 1].map(|k| fan[k % FAN].1);
+            here <= before && here < after
+        };
+        (0..FAN).filter(valley).filter_map(|k| self.refine(fan[k].0)).collect()
+    }
+
+    /// Corrects a direction until its shot is good: Newton's steps over the two angles by which it can turn.
+    pub fn refine(&self, mut direction: DVec3) -> Option<Aim> {
+        for _ in 0..CORRECTIONS {
+            let trial = self.shoot(direction);
+            if trial.miss.length() < SHARE * HIT_RADIUS {
+                let tolerance = SHARE * HIT_RADIUS / trial.way.max(1.0);
+                return Some(Aim { direction, tolerance, time: trial.time, round: trial.round });
+            }
+            let axes = [direction.any_orthonormal_vector(), direction.cross(direction.any_orthonormal_vector())];
+            let [a, b] = axes.map(|axis| (self.shoot((direction + axis * PROBE).normalize()).miss - trial.miss) / PROBE);
+            // Least squares of miss + a·x + b·y.
+            let [aa, ab, bb] = [a.dot(a), a.dot(b), b.dot(b)];
+            let [am, bm] = [a.dot(trial.miss), b.dot(trial.miss)];
+            let determinant = aa * bb - ab * ab;
+            if determinant <= 1e-12 * aa * bb {
+                return None;
+            }
+            let turn = axes[0] * ((ab * bm - bb * am) / determinant) + axes[1] * ((ab * am - aa * bm) / determinant);
+            direction = (direction + turn.clamp_length_max(MOST_TURN)).try_normalize()?;
+        }
+        None
+    }
+
+    fn shoot(&self, direction: DVec3) -> Trial {
+        let mut bolt = Point { x: self.own.position, p: bolt_momentum(self.own.momentum, direction) };
+        let mut target = self.target;
+        let mut best = Trial { miss: target.x - bolt.x, way: STEP, time: 0.0, round: false };
+        let (mut way, mut least) = (0.0, f64::INFINITY);
+        let short = self.own.position.cross(self.target.x);
+        for index in 0..(LIFE / STEP) as usize {
+            let before = [bolt.x, target.x];
+            bolt = advance(&bolt, STEP, 1.0, |_| DVec3::ZERO);
+            target = advance(&target, STEP, 1.0, |at| self.burn.acceleration(at, index as f64 * STEP, STEP));
+            let (from, to) = (before[1] - before[0], target.x - bolt.x);
+            let distance = nearest(from, to);
+            if distance < least {
+                least = distance;
+                let change = to - from;
+                let share = (-from.dot(change) / change.length_squared().max(1e-30)).clamp(0.0, 1.0);
+                best = Trial {
+                    miss: from + change * share,
+                    way: way + share * bolt.x.distance(before[0]),
+                    time: (index as f64 + share) * STEP,
+                    round: self.own.position.cross(direction).dot(short) < 0.0,
+                };
+            }
+            way += bolt.x.distance(before[0]);
+            if bolt.x.length_squared() < 1.0 {
+                break;
+            }
+        }
+        best
+    }
 }
 
-/// Corrects a direction until its shot is good.
-fn refine(mut direction: DVec3, shoot: impl Fn(DVec3) -> Trial) -> Option<(DVec3, f64)> {
-    for _ in 0..CORRECTIONS {
-        let trial = shoot(direction);
-        if trial.miss.length() < SHARE * HIT_RADIUS {
-            return Some((direction, SHARE * HIT_RADIUS / trial.way.max(1.0)));
-        }
-        let turn = (trial.miss / trial.way.max(STEP)).clamp_length_max(MOST_TURN);
-        direction = (direction + turn.reject_from(direction)).try_normalize()?;
-    }
-    None
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spacetime::orbit::circular_orbit;
 
-fn try_shot(own: &ShipState, direction: DVec3, target: &Point, burn: &PlannedBurn) -> Trial {
-    let mut bolt = Point { x: own.position, p: bolt_momentum(own.momentum, direction) };
-    let mut target = *target;
-    let mut best = Trial { miss: target.x - bolt.x, way: STEP };
-    let mut way = 0.0;
-    for index in 0..(LIFE / STEP) as usize {
-        let before = [bolt.x, target.x];
-        bolt = advance(&bolt, STEP, 1.0, |_| DVec3::ZERO);
-        target = advance(&target, STEP, 1.0, |at| burn.acceleration(at, index as f64 * STEP, STEP));
-        let (from, to) = (before[1] - before[0], target.x - bolt.x);
-        let change = to - from;
-        let share = (-from.dot(change) / change.length_squared().max(1e-30)).clamp(0.0, 1.0);
-        let miss = from + change * share;
-        if miss.length_squared() < best.miss.length_squared() {
-            best = Trial { miss, way: way + share * bolt.x.distance(before[0]) };
-        }
-        way += bolt.x.distance(before[0]);
-        if bolt.x.length_squared() < 1.0 {
-            break;
+    /// Straight and round the hole, at what coasts on the other side of it: the ways that paper and pencil say there are.
+    #[test]
+    fn what_is_behind_the_hole_is_hit_on_both_ways() {
+        for phase in [2.6, 3.0, 3.4] {
+            let own = circular_orbit(8.0, 0.0).expect("a circle");
+            let target = circular_orbit(8.0, phase).expect("a circle");
+            let mark = Mark { own: &own, target: Point::from(&target), burn: PlannedBurn::COAST };
+            let hits = mark.hits();
+            println!("{phase}: {hits:?}");
+            assert!(hits.iter().any(|hit| hit.round) && hits.iter().any(|hit| !hit.round), "{phase}: {hits:?}");
         }
     }
-    best
 }

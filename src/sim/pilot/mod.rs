@@ -3,12 +3,13 @@
 //! Far away, sampling model-predictive control ([`mod@plan`]); where a meeting can be flown, zero-effort-miss shooting
 //! ([`mod@rendezvous`]); bolts are aimed by shooting too ([`mod@aim`]). The hole is avoided in all. A pilot knows the other ship as it was
 //! a reaction delay ago, or by its light, and expects it to go on as it did. Difficulty is thrust, fuel, replanning period, horizon and
-//! reaction delay, nothing else. [`beginner`] flies as somebody does who plays for the first time, and
-//! [`jerky`] as hands do that throw the ship about.
+//! reaction delay, nothing else. [`beginner`] flies nose to the marker, [`person`] with a
+//! person's limits by what the screen shows, and [`jerky`] as hands do that throw the ship about.
 
 pub mod aim;
 pub mod beginner;
 pub mod jerky;
+pub mod person;
 pub mod plan;
 pub mod rendezvous;
 pub mod rollout;
@@ -33,9 +34,10 @@ use super::sight::{apparition, emission_time};
 use super::{ActiveMission, ChaseRules, SimSet};
 use beginner::Beginner;
 use jerky::Jerky;
+use person::Person;
 use plan::{Aim, Task, plan};
 use rendezvous::{intercept, rendezvous};
-use rollout::{PlannedBurn, Point};
+use rollout::{PlannedBurn, Point, flown};
 use steer::turn_nose;
 
 /// How well a pilot flies.
@@ -113,7 +115,7 @@ impl Plugin for EnemyAiPlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<Skills>().init_resource::<Chance>().init_resource::<ChaseRules>().add_systems(
             FixedUpdate,
-            (give_orders, beginner::fly_as_beginner, jerky::fly_by_jerks, fly_by_pilot).chain().in_set(SimSet::Ai),
+            (give_orders, beginner::fly_as_beginner, jerky::fly_by_jerks, person::fly_as_person, fly_by_pilot).chain().in_set(SimSet::Ai),
         );
     }
 }
@@ -132,7 +134,7 @@ type Piloted<'a> = (
     (Option<&'a Gun>, Option<&'a mut Trigger>),
     Has<Player>,
 );
-type ByPilot = (Without<Ended>, Without<Manual>, Without<Beginner>, Without<Jerky>);
+type ByPilot = (Without<Ended>, Without<Manual>, Without<Beginner>, Without<Jerky>, Without<Person>);
 
 /// Every pilot, in scene order, sets the controls of its ship for the coming step.
 fn fly_by_pilot(
@@ -180,7 +182,9 @@ fn fly_by_pilot(
             let known = other.map(|(history, engine)| (context.reckon(history, skill.reaction_delay, &mut state.known), engine.max_thrust));
             let task = context.task(pilot.order, known, &skill, rules.0.arena_radius, inside);
             state.aim = match (pilot.order, gun) {
-                (PilotOrder::Hit(_), Some(gun)) if gun.left > 0 => aim::lead(&motion.0, &task.other, &task.other_burn),
+                (PilotOrder::Hit(_), Some(gun)) if gun.left > 0 => {
+                    aim::lead(&motion.0, &task.other, &task.other_burn).map(|aim| (aim.direction, aim.tolerance))
+                }
                 _ => None,
             };
             state.meeting = match task.aim {
@@ -283,17 +287,10 @@ fn reckon(history: &History, now: f64, delay: f64) -> (Point, PlannedBurn) {
         let sample = history.at(time);
         Point { x: sample.position, p: sample.momentum }
     };
-    let fly = |mut point: Point, span: f64, burn: &PlannedBurn| {
-        let steps = (span * 2.0).ceil().max(1.0);
-        for _ in 0..steps as usize {
-            point = rollout::advance(&point, span / steps, 1.0, |at| burn.acceleration(at, 0.0, 0.0));
-        }
-        point
-    };
     let last = seen(now - delay);
-    let gained = (last.p - fly(seen(now - delay - WATCH), WATCH, &PlannedBurn::COAST).p) / WATCH;
+    let gained = (last.p - flown(&seen(now - delay - WATCH), WATCH, &PlannedBurn::COAST).p) / WATCH;
     let burn = PlannedBurn { thrust: last.to_local(gained), duration: PERSISTENCE };
-    (fly(last, delay, &burn), burn)
+    (flown(&last, delay, &burn), burn)
 }
 
 /// The command that gives the proper acceleration `wish` (rest-frame axes), the nose (−z) turning to where the engine pushes.

@@ -127,6 +127,12 @@ pub fn advance(now: &Point, h: f64, floor: f64, acceleration: impl Fn(&Point) ->
     point
 }
 
+/// The flight for `span` (r_s/c) under `burn`, in steps of at most half of one.
+pub fn flown(point: &Point, span: f64, burn: &PlannedBurn) -> Point {
+    let steps = (span * 2.0).ceil().max(1.0);
+    (0..steps as usize).fold(*point, |point, _| advance(&point, span / steps, 1.0, |at| burn.acceleration(at, 0.0, 0.0)))
+}
+
 /// The proper acceleration (rest-frame axes) that adds `coordinate` to d²x/dT² of free fall.
 pub fn proper_acceleration(p: DVec3, coordinate: DVec3) -> DVec3 {
     let gamma = gamma(p);

@@ -398,6 +398,7 @@ fn record_commands(clock: Res<Clock>, commands: Res<PlayerCommands>, mut recordi
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::assist::AssistMode;
     use rand::{RngExt, SeedableRng, rngs::StdRng};
 
     fn replay(records: Vec<Record>) -> Replay {
@@ -420,7 +421,12 @@ mod tests {
             let thrust = [0, 0, if (tick / 200).is_multiple_of(3) { -76 } else { 0 }];
             Record {
                 tick,
-                commands: PlayerCommands { thrust, turn: [turn[0] as i8, turn[1] as i8, 0], assist: true, ..PlayerCommands::default() },
+                commands: PlayerCommands {
+                    thrust,
+                    turn: [turn[0] as i8, turn[1] as i8, 0],
+                    assist: AssistMode::Orbit,
+                    ..PlayerCommands::default()
+                },
             }
         };
         (0..ticks).map(one).collect()
@@ -430,7 +436,9 @@ mod tests {
     fn a_text_gives_the_replay_back() {
         let mut records = restless();
         records.truncate(500);
-        records[300].commands = PlayerCommands { pace: 0.375, fire: true, looking: true, autopilot: true, ..records[300].commands };
+        let all = PlayerCommands { pace: 0.375, fire: true, looking: true, autopilot: true, ..records[300].commands };
+        records[300].commands = PlayerCommands { assist: AssistMode::Target, matching: true, ..all };
+        records[301].commands.assist = AssistMode::Off;
         let before = replay(records);
         assert_eq!(Replay::from_text(Path::new("x"), &before.to_text()).expect("a replay"), before);
         let empty = replay(vec![]);

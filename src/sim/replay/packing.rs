@@ -4,6 +4,7 @@ use std::io::Read as _;
 
 use flate2::{Compression, read::ZlibDecoder, read::ZlibEncoder};
 
+use crate::sim::assist::AssistMode;
 use crate::sim::player_commands::PlayerCommands;
 
 /// The most bytes of a file, and of its records unpacked: hours of flight.
@@ -18,7 +19,7 @@ pub struct Record {
     pub commands: PlayerCommands,
 }
 
-/// Numbers of a record besides its pace: steps since the one before, six sticks, four switches.
+/// Numbers of a record besides its pace: steps since the one before, six sticks, six switches.
 const COLUMNS: usize = 8;
 
 /// Packs records: column by column, each number less the one before, so that what stays the same is zero.
@@ -92,10 +93,17 @@ fn column_of(record: &Record, column: usize) -> u64 {
         0 => record.tick,
         1..=3 => byte(commands.thrust[column - 1]),
         4..=6 => byte(commands.turn[column - 4]),
-        _ => [commands.assist, commands.autopilot, commands.looking, commands.fire]
-            .iter()
-            .rev()
-            .fold(0, |bits, &on| 2 * bits + u64::from(on)),
+        _ => [
+            commands.assist == AssistMode::Orbit,
+            commands.autopilot,
+            commands.looking,
+            commands.fire,
+            commands.assist == AssistMode::Target,
+            commands.matching,
+        ]
+        .iter()
+        .rev()
+        .fold(0, |bits, &on| 2 * bits + u64::from(on)),
     }
 }
 
@@ -108,10 +116,15 @@ fn record_of(row: [u64; COLUMNS], pace: f64) -> Record {
         commands: PlayerCommands {
             thrust: [stick(1), stick(2), stick(3)],
             turn: [stick(4), stick(5), stick(6)],
-            assist: switch(0),
+            assist: match (switch(0), switch(4)) {
+                (_, true) => AssistMode::Target,
+                (true, false) => AssistMode::Orbit,
+                (false, false) => AssistMode::Off,
+            },
             autopilot: switch(1),
             looking: switch(2),
             fire: switch(3),
+            matching: switch(5),
             pace,
         },
     }

@@ -1,0 +1,100 @@
+//! What a player is after, and what is known of it: the true state where the mission marks "now", else what its light tells.
+
+use bevy::ecs::system::SystemParam;
+use bevy::prelude::*;
+use glam::DVec3;
+
+use super::goals::{ActiveMission, Progress};
+use super::history::History;
+use super::pilot::rollout::{PlannedBurn, Point, flown};
+use super::rules::Chase;
+use super::ship::{Pilot, PilotOrder};
+use super::sight::{apparition, emission_time};
+use crate::scene::mission::GoalTask;
+use crate::spacetime::Observer;
+use crate::spacetime::light::Order;
+use crate::spacetime::matter::ShipState;
+use crate::spacetime::orbit::static_momentum;
+
+/// What a player is after.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// A ship.
+    Ship(Entity),
+    /// A place that rests: the next gate.
+    Place(DVec3),
+}
+
+/// What is known of a target now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Known {
+    /// Where it is and how it moves, if it has fallen freely since.
+    pub point: Point,
+    /// How old that knowledge is, in r_s/c.
+    pub age: f64,
+}
+
+/// What is known of a ship's `history` at T = `time` in a ship in the state `own`. `now`: where it is now is told, else its light alone
+/// tells. None before any has come.
+pub fn known(own: &ShipState, time: f64, history: &History, now: bool) -> Option<Known> {
+    let emitted = if now { time } else { emission_time(&eye(own), time, history, Order::ALL[0])? };
+    let sample = history.at(emitted);
+    let age = time - emitted;
+    Some(Known { point: flown(&Point { x: sample.position, p: sample.momentum }, age, &PlannedBurn::COAST), age })
+}
+
+/// A ship as an observer.
+fn eye(ship: &ShipState) -> Observer {
+    let ShipState { position, momentum, attitude, .. } = *ship;
+    Observer { position, momentum, attitude, field_of_view: 1.0 }
+}
+
+/// What rests at a place outside the horizon.
+pub fn resting(place: DVec3) -> Option<Known> {
+    Some(Known { point: Point { x: place, p: static_momentum(place)? }, age: 0.0 })
+}
+
+/// What the pilot of a ship is after, and what is known of it.
+#[derive(SystemParam)]
+pub struct Targets<'w, 's> {
+    chase: Option<Res<'w, Chase>>,
+    mission: Option<Res<'w, ActiveMission>>,
+    progress: Option<Res<'w, Progress>>,
+    pilots: Query<'w, 's, &'static Pilot>,
+    histories: Query<'w, 's, &'static History>,
+}
+
+impl Targets<'_, '_> {
+    /// What `own` is after: in a mission what the present goal is about.
+    pub fn of(&self, own: Entity) -> Option<Target> {
+        match (&self.mission, &self.progress) {
+            (Some(mission), Some(progress)) => {
+                let gates = mission.0.goals.get(progress.goal).is_some_and(|goal| goal.task == GoalTask::Gates);
+                if gates {
+                    return mission.0.gates.get(progress.gates).map(|gate| Target::Place(gate.position));
+                }
+                self.chase.as_ref()?.quarry.map(Target::Ship)
+            }
+            _ => self.pilots.get(own).ok().map(|pilot| pilot.order).and_then(PilotOrder::target).map(Target::Ship),
+        }
+    }
+
+    /// What is known of it at T = `time` in the ship `own` in this state.
+    pub fn known(&self, own: Entity, state: &ShipState, time: f64) -> Option<Known> {
+        match self.of(own)? {
+            Target::Ship(ship) => known(state, time, self.histories.get(ship).ok()?, self.tells_now()),
+            Target::Place(place) => resting(place),
+        }
+    }
+
+    /// Where the first image of the ship that `own` is after is seen from it, on body axes.
+    pub fn image(&self, own: Entity, state: &ShipState, time: f64) -> Option<DVec3> {
+        let Some(Target::Ship(ship)) = self.of(own) else { return None };
+        Some(apparition(&eye(state), time, self.histories.get(ship).ok()?, Order::ALL[0])?.direction)
+    }
+
+    /// Whether the mission tells where ships are now.
+    pub fn tells_now(&self) -> bool {
+        self.mission.as_ref().is_none_or(|mission| mission.0.now_marker)
+    }
+}
