@@ -21,8 +21,8 @@ use crate::spacetime::orbit::static_momentum;
 pub enum Target {
     /// A ship.
     Ship(Entity),
-    /// A place that rests: the next gate.
-    Place(DVec3),
+    /// The next gate: a place that rests, and its radius, in r_s.
+    Gate(DVec3, f64),
 }
 
 /// What is known of a target now.
@@ -71,7 +71,7 @@ impl Targets<'_, '_> {
             (Some(mission), Some(progress)) => {
                 let gates = mission.0.goals.get(progress.goal).is_some_and(|goal| goal.task == GoalTask::Gates);
                 if gates {
-                    return mission.0.gates.get(progress.gates).map(|gate| Target::Place(gate.position));
+                    return mission.0.gates.get(progress.gates).map(|gate| Target::Gate(gate.position, gate.radius));
                 }
                 self.chase.as_ref()?.quarry.map(Target::Ship)
             }
@@ -83,7 +83,7 @@ impl Targets<'_, '_> {
     pub fn known(&self, own: Entity, state: &ShipState, time: f64) -> Option<Known> {
         match self.of(own)? {
             Target::Ship(ship) => known(state, time, self.histories.get(ship).ok()?, self.tells_now()),
-            Target::Place(place) => resting(place),
+            Target::Gate(place, _) => resting(place),
         }
     }
 

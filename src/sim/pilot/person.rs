@@ -16,7 +16,7 @@ use crate::sim::clock::Clock;
 use crate::sim::guidance::{Brake, approach, guidance};
 use crate::sim::player_commands::{ManualControl, PlayerCommands};
 use crate::sim::ship::{Controls, Ended, Engine, Fleet, Manual, Pilot, PilotOrder, ShipMotion};
-use crate::sim::target::{Known, Targets};
+use crate::sim::target::{Known, Target, Targets};
 use crate::spacetime::matter::ShipState;
 
 /// From what is seen to what the hand does, in r_s/c: a third of a second at the usual pace.
@@ -44,6 +44,12 @@ const CORRECTED: f64 = 3.0;
 const CLEAR: f64 = 4.0;
 /// See [`CLEAR`]: outward, along the motion, along the orbit's axis.
 const UP: DVec3 = DVec3::new(0.3, 1.0, 0.0);
+/// Who closes faster than this, in c, saves fuel.
+const FAST: f64 = 0.3;
+/// On a radius within this, in r_s.
+const ON_RADIUS: f64 = 0.15;
+/// How far the line of the course goes, in r_s/c.
+const COURSE: usize = 24;
 /// A course below this radius, in r_s, ends at the hole.
 const LOW: f64 = 2.4;
 
@@ -135,7 +141,7 @@ impl View<'_> {
 /// Whether the line of the course ends at the hole.
 fn falls(own: &Point) -> bool {
     let mut point = *own;
-    (0..24).any(|_| {
+    (0..COURSE).any(|_| {
         point = advance(&point, 1.0, 1.0, |_| DVec3::ZERO);
         point.x.length_squared() < LOW * LOW
     })
@@ -162,7 +168,11 @@ pub fn fly_as_person(
         if clock.time >= person.next {
             let bolts = gun.map_or(0, |gun| gun.left);
             let image = targets.image(entity, state, clock.time);
-            let view = View { state, order: pilot.order, engine: &engine, target, image, reach: rules.0.capture_radius, bolts };
+            let reach = match targets.of(entity) {
+                Some(Target::Gate(_, radius)) => radius,
+                _ => rules.0.capture_radius,
+            };
+            let view = View { state, order: pilot.order, engine: &engine, target, image, reach, bolts };
             let action = person.decide(&view, clock.time);
             person.decided = Some((clock.time + slowed * REACTION, action));
             person.next = clock.time + slowed * person.pause();
@@ -225,6 +235,7 @@ impl Person {
             _ if caught => Action { nose, assist, matching: true, ..Action::default() },
             _ if guide.apart.length() > NEAR => self.pass(view, target),
             Brake::Soon => Action { nose, assist, ..Action::default() },
+            Brake::Free if guide.closing() > FAST => Action { nose, assist, ..Action::default() },
             Brake::Free => Action { nose, thrust: view.ahead(guide.apart), assist, ..Action::default() },
         }
     }
@@ -234,6 +245,7 @@ impl Person {
     fn pass(&mut self, view: &View, target: &Known) -> Action {
         let own = Point::from(view.state);
         let apart = target.point.x - own.x;
+        let closing = guidance(&own, &target.point, view.engine.max_thrust, view.reach).closing();
         let near = approach(&own, &target.point).filter(|near| self.skill.heeds && near.distance < CORRECTED && !falls(&own));
         match near {
             Some(near) if near.distance < MEETS * view.reach => Action { nose: Some(apart), ..Action::default() },
@@ -248,7 +260,8 @@ impl Person {
                     (true, false) => (own.from_local(UP), AssistMode::Off),
                     (false, _) => (apart, AssistMode::Orbit),
                 };
-                Action { nose: Some(way), thrust: view.ahead(way), assist, ..Action::default() }
+                let thrust = if self.skill.heeds && closing > FAST { DVec3::ZERO } else { view.ahead(way) };
+                Action { nose: Some(way), thrust, assist, ..Action::default() }
             }
         }
     }
@@ -284,17 +297,11 @@ impl Person {
 
     /// Outward or inward where it is off; the assist makes a circle of the rest.
     fn keep(&mut self, view: &View, radius: f64) -> Action {
-        let state = view.state;
-        let r = state.position.length();
-        let outward = state.position / r;
+        let r = view.state.position.length();
+        let outward = view.state.position / r;
         let nose = if r < radius { outward } else { -outward };
-        let off = (r - radius).abs() > if self.skill.heeds { 0.15 } else { 0.0 };
-        let on_mark = (state.attitude * DVec3::NEG_Z).angle_between(nose) < ON_MARK;
-        Action {
-            nose: Some(nose),
-            thrust: if off && on_mark { DVec3::NEG_Z } else { DVec3::ZERO },
-            assist: AssistMode::Orbit,
-            ..Action::default()
-        }
+        let is_off = (r - radius).abs() > if self.skill.heeds { ON_RADIUS } else { 0.0 };
+        let thrust = if is_off { view.ahead(nose) } else { DVec3::ZERO };
+        Action { nose: Some(nose), thrust, assist: AssistMode::Orbit, ..Action::default() }
     }
 }
