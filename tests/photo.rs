@@ -22,6 +22,7 @@ use lensrunner::render::stage::{Stage, settings};
 use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{self, Difficulty, GameConfig, Scene};
 use lensrunner::sim::Moment;
+use lensrunner::sim::assist::AssistMode;
 use lensrunner::sim::replay::{Record, Replay};
 use lensrunner::sim::snapshot::{FrameCamera, Snapshot, step_after};
 use lensrunner::sim::{Bolts, Fleet, History, PlayerCommands};
@@ -45,7 +46,7 @@ fn flight() -> (Scene, GameConfig, Replay) {
         thrust: [0, 30, -127],
         turn: [(tick % 7) as i8, 3, 0],
         fire: tick == 10 || tick == 40,
-        assist: tick > 30,
+        assist: if tick > 30 { AssistMode::Target } else { AssistMode::Off },
         ..PlayerCommands::default()
     };
     flight.records = (0..90).map(|tick| Record { tick, commands: commands(tick) }).collect();
@@ -152,7 +153,8 @@ fn frames_of_the_demonstration_are_made_again() {
     let mut session = Session::load(None, Some("chase"), Some(3)).unwrap();
     session.config = GameConfig::default();
     let mut flight = Replay::begin(&session.scene, &session.config, session.difficulty, PilotKind::Expert, session.seed);
-    let commands = |k: u64| PlayerCommands { thrust: [0, 0, -100], turn: [0, k as i8, 0], assist: true, ..PlayerCommands::default() };
+    let commands =
+        |k: u64| PlayerCommands { thrust: [0, 0, -100], turn: [0, k as i8, 0], assist: AssistMode::Orbit, ..PlayerCommands::default() };
     flight.records = (0..40).map(|k| Record { tick: 16 * k, commands: commands(k) }).collect();
     let request = DemonstrationRequest {
         frames: FRAMES,

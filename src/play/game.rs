@@ -1,6 +1,7 @@
 //! The game without its window: screens, keys, time, and the player's commands to the ship. Runs in a minimal app, for tests.
 
 use crate::play::player_state::{Flown, PlayerState, TAP};
+use bevy::input::mouse::AccumulatedMouseMotion;
 use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
 
@@ -75,6 +76,7 @@ pub fn begin(world: &mut World, screen: Screen) {
     player.flown = Flown::default();
     player.assist = None;
     player.assist_held = None;
+    player.touched = false;
     player.fired = false;
     *world.resource_mut::<MouseTurn>() = MouseTurn::default();
     if let Some(pilot) = pilot {
@@ -87,6 +89,7 @@ pub fn begin(world: &mut World, screen: Screen) {
 fn choose_scene(world: &mut World, screen: Screen) {
     let Some(catalogue) = world.get_resource::<Catalogue>().cloned() else { return };
     let PlayerState { choice, free, .. } = *world.resource::<PlayerState>();
+    let same_start = std::mem::take(&mut world.resource_mut::<PlayerState>().same_start);
     let watched = world.get_resource::<Watched>().map(|watched| watched.0.clone()).filter(|_| screen == Screen::Playing);
     let mut session = world.resource_mut::<Session>();
     let before = (session.scene.name.clone(), session.scene.fingerprint);
@@ -100,7 +103,7 @@ fn choose_scene(world: &mut World, screen: Screen) {
         }
         (None, Screen::Playing) => {
             session.scene = catalogue.scene(choice, free).clone();
-            if !session.seed_stays {
+            if !session.seed_stays && !same_start {
                 session.seed += 1;
             }
         }
@@ -115,11 +118,10 @@ fn choose_scene(world: &mut World, screen: Screen) {
 /// Keys that switch something.
 fn read_keys(
     input: PlayerInput,
-    screen: Res<State<Screen>>,
-    typing: Option<Res<EguiWantsInput>>,
+    (screen, typing): (Res<State<Screen>>, Option<Res<EguiWantsInput>>),
     mut session: ResMut<Session>,
     (mut player, mut menu): (ResMut<PlayerState>, ResMut<Menu>),
-    (chase, real): (Option<Res<Chase>>, Res<Time<Real>>),
+    (chase, real, turned): (Option<Res<Chase>>, Res<Time<Real>>, Res<AccumulatedMouseMotion>),
     mut actions: MessageWriter<MenuAction>,
     mut commands: Commands,
 ) {
@@ -143,7 +145,7 @@ fn read_keys(
     }
     let flown = matches!(screen.get(), Screen::Playing | Screen::Paused | Screen::Result);
     if input.pushed(Action::Restart) && flown && menu.page().is_none() {
-        actions.write(MenuAction::Start);
+        actions.write(MenuAction::Again);
     }
     if input.pushed(Action::WhatAmISeeing) {
         match (screen.get(), menu.page()) {
@@ -179,6 +181,7 @@ fn read_keys(
     hold_assist(&input, &mut player, &session, chase.is_some_and(|chase| chase.quarry.is_some()), real.delta_secs_f64());
     let begins = input.stick().thrust != glam::DVec3::ZERO || input.holds(Action::LookAtTarget) || input.holds(Action::ToggleAutopilot);
     player.begun |= player.pilot.is_some() || begins;
+    player.touched |= begins || input.stick().turn != glam::DVec3::ZERO || turned.delta.length() > 0.0;
     if input.pushed(Action::ToggleAutopilot) {
         player.autopilot = !player.autopilot;
     }
@@ -227,6 +230,10 @@ fn answer_menus(world: &mut World) {
                 if let Some(replay) = world.get_resource::<LastFlight>().and_then(|last| last.replay.clone()) {
                     world.insert_resource(Watched(replay));
                 }
+            }
+            MenuAction::Again => {
+                world.remove_resource::<Watched>();
+                world.resource_mut::<PlayerState>().same_start = true;
             }
             MenuAction::Start | MenuAction::Title => _ = world.remove_resource::<Watched>(),
             MenuAction::Pause | MenuAction::Photo => (),
@@ -294,6 +301,7 @@ pub(in crate::play) mod tests {
     use super::*;
     use crate::play::input::tests::press_key;
     use crate::play::overlay::live::LivePlugin;
+    use crate::sim::assist::AssistMode;
     use crate::sim::{Outcome, SimulationPlugins};
     use bevy::input::{ButtonState, InputPlugin};
     use bevy::state::app::StatesPlugin;
@@ -370,24 +378,63 @@ pub(in crate::play) mod tests {
         assert_eq!(screen(&app), Screen::Playing);
     }
 
-    /// The assist switched off is off for this chase, and the file's word when it changes.
+    fn assist(app: &App) -> AssistMode {
+        app.world().resource::<PlayerState>().assisted(&app.world().resource::<Session>().config)
+    }
+
+    /// What the key has chosen holds for this chase, and the file's word when it changes.
     #[test]
     fn a_new_chase_has_the_configured_assist() {
-        let assisted = |app: &App| app.world().resource::<PlayerState>().assisted(&app.world().resource::<Session>().config);
         let mut app = playing();
-        assert!(assisted(&app));
+        let modes = [(); 3].map(|()| {
+            push(&mut app, KeyCode::KeyZ);
+            assist(&app)
+        });
+        assert_eq!(modes, [AssistMode::Target, AssistMode::Off, AssistMode::Orbit]);
         push(&mut app, KeyCode::KeyZ);
-        assert!(!assisted(&app));
         push(&mut app, KeyCode::KeyR);
-        assert!(assisted(&app), "as configured");
-        push(&mut app, KeyCode::KeyZ);
+        assert_eq!(assist(&app), AssistMode::Orbit, "as configured");
         app.world_mut().resource_mut::<Session>().config.assist.enabled = false;
         app.update();
         push(&mut app, KeyCode::KeyZ);
-        assert!(assisted(&app), "switched on where off is configured");
-        app.world_mut().resource_mut::<Session>().config.assist.enabled = true;
+        assert_eq!(assist(&app), AssistMode::Orbit, "switched on where off is configured");
+        app.world_mut().resource_mut::<Session>().config.assist.reference = "target".into();
         app.update();
         assert!(app.world().resource::<PlayerState>().assist.is_none(), "a changed configuration goes before the key");
+    }
+
+    /// Held, the key matches the target's motion, and chooses nothing.
+    #[test]
+    fn the_held_key_of_the_assist_matches() {
+        let mut app = playing();
+        let matching = |app: &App| app.world().resource::<PlayerCommands>().matching;
+        press_key(&mut app, KeyCode::KeyZ, ButtonState::Pressed);
+        app.update();
+        assert!(!matching(&app));
+        (0..4).for_each(|_| app.update());
+        assert!(matching(&app));
+        press_key(&mut app, KeyCode::KeyZ, ButtonState::Released);
+        (0..2).for_each(|_| app.update());
+        assert!(!matching(&app));
+        assert_eq!(assist(&app), AssistMode::Orbit);
+    }
+
+    /// The key and the menu begin as before, another start is another one.
+    #[test]
+    fn the_same_start_is_the_same() {
+        let mut app = playing();
+        app.world_mut().resource_mut::<Session>().seed_stays = false;
+        let (catalogue, _) = Catalogue::read(app.world().resource::<Session>().scene.clone());
+        // The last is free flight, in the scene that is flown already.
+        app.world_mut().resource_mut::<PlayerState>().choice = catalogue.missions.len();
+        app.insert_resource(catalogue);
+        let seed = |app: &App| app.world().resource::<Session>().seed;
+        let first = seed(&app);
+        push(&mut app, KeyCode::KeyR);
+        assert_eq!(seed(&app), first);
+        app.world_mut().write_message(MenuAction::Start);
+        app.update();
+        assert_eq!(seed(&app), first + 1);
     }
 
     #[test]

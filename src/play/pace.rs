@@ -13,7 +13,7 @@ use crate::sim::pilot::rollout::{Point, advance};
 use crate::sim::replay::Playback;
 use crate::sim::{ActiveMission, Fleet, ShipMotion};
 
-/// The share of the chosen pace at which the game goes on, 0.4 to 1.
+/// The share of the chosen pace at which the game goes on, 0.25 to 1.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct Slowing(pub f64);
 
@@ -32,7 +32,9 @@ pub struct Freeze {
     pub steps: u32,
 }
 
-/// The least share of the pace.
+/// The share of the pace until the first input.
+const BEFORE_INPUT: f64 = 0.25;
+/// The least share of the pace near danger.
 const SLOWEST: f64 = 0.4;
 /// The game slows when danger is less far ahead than this, in r_s/c of T, and is slowest at [`HERE`].
 const AHEAD: f64 = 6.0;
@@ -76,6 +78,8 @@ fn slow_down(
     } else {
         1.0
     };
+    // Until the player does something there is time to read.
+    let wanted = if by_hand && !player.touched { wanted.min(BEFORE_INPUT) } else { wanted };
     slowing.0 += (wanted - slowing.0) * (1.0 - (-real.delta_secs_f64() / LAG).exp());
 }
 

@@ -34,6 +34,10 @@ pub struct PlayerState {
     pub follower: Follower,
     /// The player has thrust, looked at the target or let the autopilot fly, as the hint of the first flight says; or had time to read it.
     pub begun: bool,
+    /// The player has used a control in this chase: until then it goes slowly.
+    pub touched: bool,
+    /// The next flight begins as the last one did.
+    pub same_start: bool,
     /// How long that hint has been shown, in seconds of wall time.
     pub hinted: f64,
     /// The key that turns the camera to the target is held.

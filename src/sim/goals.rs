@@ -81,6 +81,15 @@ pub fn needed(task: &GoalTask, mission: &Mission, rules: &ChaseRules) -> f64 {
     }
 }
 
+/// How near the target must be to be caught, in r_s; None where the present goal of a mission is another.
+pub fn catch_radius(mission: Option<&ActiveMission>, progress: Option<&Progress>, rules: &ChaseRules) -> Option<f64> {
+    let Some((mission, progress)) = mission.zip(progress) else { return Some(rules.0.capture_radius) };
+    match mission.0.goals.get(progress.goal)?.task {
+        GoalTask::Hold { distance, .. } => Some(distance.unwrap_or(rules.0.capture_radius)),
+        _ => None,
+    }
+}
+
 /// The order of the present goal.
 fn order(mission: &Mission, progress: &Progress, fleet: &Fleet) -> PilotOrder {
     let ship = |index: usize| fleet.0.get(index).copied();

@@ -171,7 +171,7 @@ fn a_hunter_that_falls_in_has_lost_and_one_that_dawdles_too() {
 #[test]
 fn a_ship_flown_by_hand_is_left_alone_by_its_pilot() {
     let mut app = app_of(&scene(CHASE), &GameConfig::default(), 0);
-    *app.world_mut().resource_mut::<PlayerCommands>() = PlayerCommands { autopilot: false, assist: false, ..PlayerCommands::default() };
+    *app.world_mut().resource_mut::<PlayerCommands>() = PlayerCommands { autopilot: false, ..PlayerCommands::default() };
     let before = energy(&motion(app.world(), 0));
     (0..200).for_each(|_| app.world_mut().run_schedule(FixedUpdate));
     assert!((energy(&motion(app.world(), 0)) - before).abs() < 1e-12, "it coasted");

@@ -117,20 +117,24 @@ fn missions_are_balanced() {
     for (index, name) in names.iter().enumerate() {
         let hard = share(index, Difficulty::Hard, PilotKind::Expert);
         assert!((0.05..=0.97).contains(&hard), "{name}: the expert wins {hard} on hard");
-        for pilot in PilotKind::RATED {
+        for pilot in [PilotKind::Naive, PilotKind::Apprentice, PilotKind::Expert] {
             let [easy, hard] = [Difficulty::Easy, Difficulty::Hard].map(|difficulty| share(index, difficulty, pilot));
             assert!(hard <= easy, "{name}: {pilot} wins {hard} on hard and {easy} on easy");
         }
         // Training on easy is for everybody.
         for difficulty in Difficulty::ALL.into_iter().filter(|&difficulty| index > 0 || difficulty != Difficulty::Easy) {
             let shares = PilotKind::RATED.map(|pilot| share(index, difficulty, pilot));
-            assert!(shares != [0.0; 3] && shares != [1.0; 3], "{name}, {difficulty}: {shares:?}");
+            assert!(shares.iter().any(|&share| share > 0.0) && shares.iter().any(|&share| share < 1.0), "{name}, {difficulty}: {shares:?}");
         }
     }
-    for name in ["02-first-pursuit", "03-through-the-disk"] {
-        let index = names.iter().position(|known| known == name).expect("a mission");
-        let naive = share(index, Difficulty::Easy, PilotKind::Naive);
-        assert!((0.4..=0.95).contains(&naive), "{name}: who plays for the first time wins {naive}");
+    for (index, name) in names.iter().enumerate() {
+        // Who does as the screen says wins on easy at the first flight.
+        let [ignoring, person, practised] =
+            [PilotKind::Ignoring, PilotKind::Person, PilotKind::Practised].map(|pilot| share(index, Difficulty::Easy, pilot));
+        assert!(person >= 0.6 && practised >= 0.8, "{name}: a person wins {person}, with practice {practised}");
+        // Without the signs hardly half as often; the others are won by the assist, or by flying to the mark.
+        let by_flying = ["01-training", "05-the-last-orbit", "07-arrive-young"].contains(&name.as_str());
+        assert!(by_flying || ignoring < 0.5 * person, "{name}: who ignores the signs wins {ignoring}");
     }
 }
 
@@ -229,7 +233,7 @@ fn bolts_fall_freely_and_end() {
     let config = scene.config(&GameConfig::default(), Difficulty::Easy);
     let mut app = app_of(&scene, &config, 0);
     *app.world_mut().resource_mut::<lensrunner::sim::PlayerCommands>() =
-        lensrunner::sim::PlayerCommands { autopilot: false, assist: false, ..Default::default() };
+        lensrunner::sim::PlayerCommands { autopilot: false, ..Default::default() };
     let ship = app.world().resource::<Fleet>().0[0];
     app.world_mut().get_mut::<Trigger>(ship).expect("armed").pulled = true;
     app.world_mut().run_schedule(FixedUpdate);

@@ -4,7 +4,8 @@
 use glam::DVec3;
 
 use crate::sim::History;
-use crate::sim::bolts::{self, bolt_momentum, fired_by};
+use crate::sim::bolts::{self, LIFE, bolt_momentum, fired_by};
+use crate::sim::guidance::approach;
 use crate::sim::pilot::rollout::{Point, advance};
 use crate::sim::sight::{direction, emission_time};
 use crate::spacetime::Observer;
@@ -13,8 +14,8 @@ use crate::spacetime::matter::ShipState;
 
 /// How far ahead a course is shown, in r_s/c, and in how many pieces.
 const COURSE: (f64, usize) = (24.0, 32);
-/// The same for a bolt.
-const SHOT: (f64, usize) = (20.0, 32);
+/// The same for a bolt: as long as it flies.
+const SHOT: (f64, usize) = (LIFE, 48);
 
 /// Directions in camera axes, one after the other; None where a place is not seen.
 pub type AheadLine = Vec<Option<DVec3>>;
@@ -37,9 +38,9 @@ pub fn shot(camera: &Observer, state: &ShipState) -> AheadLine {
     seen(camera, places(bolt, SHOT))
 }
 
-/// Where and when two ships that coast come nearest.
+/// Where and when one passes the target, if both coast.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Approach {
+pub struct Pass {
     /// How near, in r_s.
     pub distance: f64,
     /// In how many r_s/c of T.
@@ -48,24 +49,20 @@ pub struct Approach {
     pub directions: [Option<DVec3>; 2],
 }
 
-/// The nearest approach of two ships that coast; None if they part from now on.
-pub fn closest(camera: &Observer, own: &ShipState, target: &ShipState) -> Option<Approach> {
-    let [a, b] = [own, target].map(|state| places(Point::from(state), COURSE));
-    let step = COURSE.0 / COURSE.1 as f64;
-    let distances = a.iter().zip(&b).map(|(a, b)| a.distance(*b));
-    let (index, distance) = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let directions = [a[index], b[index]].map(|place| seen_at(camera, place));
-    (index > 0).then_some(Approach { distance, ahead: (index as f64 + 1.0) * step, directions })
+/// How one passes a target; None if both part from now on.
+pub fn pass(camera: &Observer, own: &ShipState, target: &Point) -> Option<Pass> {
+    let near = approach(&Point::from(own), target)?;
+    Some(Pass { distance: near.distance, ahead: near.ahead, directions: near.places.map(|place| seen_at(camera, place)) })
 }
 
-/// How near a bolt fired now comes to a target that coasts, in r_s, before it is past.
-pub fn shot_passes(own: &ShipState, target: &ShipState) -> f64 {
+/// How near a bolt fired now comes to a target that coasts, in r_s.
+pub fn shot_passes(own: &ShipState, target: &Point) -> f64 {
     /// T of a piece, in r_s/c; between its ends both fly straight.
     const STEP: f64 = 0.25;
     let mut bolt = Point::from(&fired_by(own));
-    let mut other = Point::from(target);
+    let mut other = *target;
     let mut nearest = f64::INFINITY;
-    for _ in 0..(SHOT.0 / STEP) as usize {
+    for _ in 0..(LIFE / STEP) as usize {
         let before = bolt.x - other.x;
         bolt = advance(&bolt, STEP, 1.0, |_| DVec3::ZERO);
         other = advance(&other, STEP, 1.0, |_| DVec3::ZERO);
@@ -109,7 +106,7 @@ mod tests {
         let rain = other.position / other.position.length() * (other.momentum.dot(other.position) / other.position.length());
         other.momentum = 2.0 * rain - other.momentum;
         let camera = Observer { position: own.position, momentum: own.momentum, attitude: own.attitude, field_of_view: 1.0 };
-        let Approach { distance: nearest, ahead: when, directions } = closest(&camera, &own, &other).expect("they meet");
+        let Pass { distance: nearest, ahead: when, directions } = pass(&camera, &own, &Point::from(&other)).expect("they meet");
         assert!(directions[0].expect("seen").angle_between(directions[1].expect("seen")) < 0.3);
         let sixteenth = std::f64::consts::FRAC_PI_8 / crate::spacetime::orbit::orbital_frequency(8.0);
         assert!(nearest < 0.5 && (when - sixteenth).abs() < 1.0, "{nearest} {when} {sixteenth}");

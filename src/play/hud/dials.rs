@@ -4,12 +4,14 @@ use bevy_egui::egui::{Align2, Color32, Painter, Pos2, Rect, vec2};
 
 use crate::play::camera::CameraView;
 use crate::play::hud::instruments::{Bearing, Instruments, Scale};
+use crate::play::hud::markers::brake_colour;
 use crate::play::hud::paint::{ALARM, BAR_ROOM, FAINT, OWN, TEXT, TRUE, TextBox};
 use crate::play::hud::{BETWEEN, MARGIN};
 use crate::play::player_state::PlayerState;
 use crate::play::session::Session;
 use crate::scene::pilot_kind::PilotKind;
 use crate::sim::assist::AssistMode;
+use crate::sim::guidance::Guidance;
 
 /// Fuel is low below this share of a full tank.
 pub const LOW_FUEL: f64 = 0.15;
@@ -53,6 +55,10 @@ pub struct Going {
     pub slowing: f64,
     /// The target is shown as it was when its light left it.
     pub by_light: bool,
+    /// Motion against the target.
+    pub guidance: Option<Guidance>,
+    /// No thrust is asked for: what there is, the assist's.
+    pub helped: bool,
 }
 
 /// A line of a dial: the least density that has it, words, size, colour.
@@ -74,9 +80,9 @@ pub fn lay_out(painter: &Painter, rect: Rect, session: &Session, player: &Player
     add(inner.left_top(), Align2::LEFT_TOP, clocks(&scale, read));
     add(inner.right_top(), Align2::RIGHT_TOP, distance(&scale, read));
     if let Some(bearing) = &read.target {
-        add(inner.right_bottom(), Align2::RIGHT_BOTTOM, target(&scale, bearing, going.by_light));
+        add(inner.right_bottom(), Align2::RIGHT_BOTTOM, target(&scale, bearing, going));
     }
-    add(inner.left_bottom(), Align2::LEFT_BOTTOM, speed(&scale, read));
+    add(inner.left_bottom(), Align2::LEFT_BOTTOM, speed(&scale, read, going.helped));
     // Above the speed: below the middle it would lie on one's own ship.
     let below = dials.last().map_or(inner.left_bottom(), |speed| speed.frame.left_top());
     dials.push(state(painter, below - vec2(0.0, BETWEEN + BAR_ROOM), session, player, read, going, density));
@@ -113,7 +119,7 @@ fn distance(scale: &Scale, read: &Instruments) -> Vec<Line> {
     ]
 }
 
-fn speed(scale: &Scale, read: &Instruments) -> Vec<Line> {
+fn speed(scale: &Scale, read: &Instruments, helped: bool) -> Vec<Line> {
     let speed = read.speed.map_or("—".to_owned(), |speed| format!("{speed:.3} c"));
     let falling = format!("{:.3}", read.rain_speed);
     let gees = scale.gees(read.acceleration);
@@ -121,21 +127,26 @@ fn speed(scale: &Scale, read: &Instruments) -> Vec<Line> {
         (Density::Reduced, scale.language.say("hud-speed"), 11.0, FAINT),
         (Density::Least, speed, 26.0, TEXT),
         (Density::Full, scale.language.fill("hud-speed-falling", &[("speed", falling.as_str())]), 12.0, FAINT),
-        (Density::Full, scale.language.say("hud-load"), 11.0, FAINT),
+        (Density::Full, scale.language.say(if helped && gees > 0.05 { "hud-load-assist" } else { "hud-load" }), 11.0, FAINT),
         (Density::Full, format!("{gees:.1} g"), 19.0, if gees > HEAVY { TRUE } else { TEXT }),
     ]
 }
 
-fn target(scale: &Scale, read: &Bearing, by_light: bool) -> Vec<Line> {
+fn target(scale: &Scale, read: &Bearing, going: Going) -> Vec<Line> {
     let language = scale.language;
-    let closing = if read.closing > 0.0 { OWN } else { TRUE };
+    let closing = going.guidance.map_or(TEXT, |guide| brake_colour(guide.brake));
     let mut lines = vec![
-        (Density::Reduced, language.say(if by_light { "hud-range-seen" } else { "hud-range" }), 11.0, FAINT),
+        (Density::Reduced, language.say(if going.by_light { "hud-range-seen" } else { "hud-range" }), 11.0, FAINT),
         (Density::Least, format!("{:.2} r_s", read.range), 26.0, TEXT),
         (Density::Full, scale.kilometres(read.range), 12.0, FAINT),
         (Density::Full, language.say("hud-closing"), 11.0, FAINT),
         (Density::Reduced, format!("{:+.3} c", thousandths(read.closing)), 19.0, closing),
     ];
+    if let Some(guide) = going.guidance {
+        let numbers = [guide.sideways(), guide.stopping].map(|value| format!("{value:.2}"));
+        let words = language.fill("hud-stops", &[("sideways", numbers[0].as_str()), ("stopping", numbers[1].as_str())]);
+        lines.push((Density::Reduced, words, 12.0, closing));
+    }
     if let Some(g) = read.shift {
         let key = if g >= 1.0 { "hud-light-bluer" } else { "hud-light-redder" };
         lines.push((Density::Full, language.fill(key, &[("g", format!("{g:.3}").as_str())]), 12.0, TEXT));

@@ -70,6 +70,15 @@ pub fn lay_out(painter: &Painter, rect: Rect, top: f32, goals: &Goals, slow: &mu
     Some(TextBox::lay_out(painter, at, Align2::CENTER_TOP, widest, &lines).over_bar(share as f32, OWN))
 }
 
+/// From this share of the farthest allowed radius on the edge is near.
+const EDGE: f64 = 0.85;
+
+/// Whether the ship at `radius` (r_s) is about to leave where the present goal wants it to stay.
+pub fn near_edge(mission: &Mission, progress: &Progress, radius: f64) -> bool {
+    let task = mission.goals.get(progress.goal).map(|goal| &goal.task);
+    matches!(task, Some(GoalTask::Survive { most, .. }) if radius > EDGE * most)
+}
+
 /// Whether the present goal is a ship to be held, which is shown by a ring.
 pub fn is_held(mission: &Mission, progress: &Progress) -> bool {
     mission.goals.get(progress.goal).is_some_and(|goal| matches!(goal.task, GoalTask::Hold { .. }))

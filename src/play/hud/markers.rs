@@ -7,9 +7,9 @@ use glam::DVec3;
 use crate::play::camera::BEHIND;
 use crate::play::hud::layout::settle;
 use crate::play::hud::paint::{ALARM, FAINT, NAME_PAD, OWN, SEEN, TEXT, TRUE, rimmed, text};
-use crate::play::hud::palette::Palette;
 use crate::play::hud::panel::Panel;
 use crate::play::words::Language;
+use crate::sim::guidance::Brake;
 
 /// Where a direction in camera axes is on the screen; or, if it is not on it, where at the edge an arrow points to it, and how it points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,7 +107,15 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Taken, languag
             .collect();
         dotted(painter, &points, colour);
     }
-    if let Some(near) = panel.closest {
+    for &(direction, time) in &panel.aims {
+        if let MarkerPosition::On(at) = find(direction) {
+            let at = board.marks(point(at), 9.0, ALARM);
+            cross(painter, at, 9.0, Stroke::new(2.0, ALARM));
+            let words = language.fill("hud-aim", &[("time", format!("{time:.0}").as_str())]);
+            board.name(words, 11.5, ALARM, at + vec2(13.0, 0.0), Align2::LEFT_CENTER);
+        }
+    }
+    if let Some(near) = panel.pass {
         for (direction, colour) in near.directions.into_iter().zip(colours) {
             if let Some(MarkerPosition::On(at)) = direction.map(find) {
                 let at = point(at);
@@ -119,6 +127,9 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Taken, languag
     let [first, second] = panel.images.map(|image| image.map(|image| (find(image.direction), image.age)));
     let truth = panel.truth.map(find);
     let heading = panel.heading.map(find);
+    let fallen = panel.fallen.map(find);
+    let moving = panel.moving.map(|moving| [moving, -moving].map(find));
+    let brake = panel.guidance.map_or(Brake::Free, |guide| guide.brake);
     // The names most wanted come first; each keeps off those before it.
     if let Some((MarkerPosition::On(at), age)) = first {
         let at = board.marks(point(at), 13.0, SEEN);
@@ -132,7 +143,30 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Taken, languag
             let begin = f64::from(quarter) / 8.0;
             dash(painter, at, 13.0, begin, begin + 0.07, Stroke::new(1.8, TRUE));
         }
-        board.name(language.say("hud-now"), 13.0, TRUE, at + vec2(18.0, 10.0), Align2::LEFT_TOP);
+        board.name(with_pass(language.say("hud-now"), panel, language), 13.0, TRUE, at + vec2(18.0, 10.0), Align2::LEFT_TOP);
+    }
+    if let Some(MarkerPosition::On(at)) = fallen {
+        let at = board.marks(point(at), 8.0, SEEN);
+        for half in [vec2(8.0, 0.0), vec2(0.0, 8.0)] {
+            rimmed(painter, Stroke::new(1.6, SEEN), |stroke| Shape::line_segment([at - half, at + half], stroke));
+        }
+        board.name(with_pass(language.say("hud-fallen"), panel, language), 11.5, SEEN, at + vec2(13.0, 8.0), Align2::LEFT_TOP);
+    }
+    if let Some([ahead, behind]) = moving {
+        let colour = brake_colour(brake);
+        if let MarkerPosition::On(at) = ahead {
+            let at = board.marks(point(at), 10.0, colour);
+            rimmed(painter, Stroke::new(2.0, colour), |stroke| Shape::circle_stroke(at, 3.0, stroke));
+            for side in [vec2(-10.0, 8.0), vec2(10.0, 8.0), vec2(0.0, -12.0)] {
+                rimmed(painter, Stroke::new(2.0, colour), |stroke| Shape::line_segment([at + side * 0.45, at + side], stroke));
+            }
+            board.name(language.say("hud-moving"), 11.5, colour, at + vec2(-14.0, 12.0), Align2::RIGHT_TOP);
+        }
+        if let MarkerPosition::On(at) = behind {
+            let at = board.marks(point(at), 8.0, colour);
+            cross(painter, at, 7.0, Stroke::new(2.0, colour));
+            board.name(language.say("hud-against"), 11.5, colour, at + vec2(-12.0, 8.0), Align2::RIGHT_TOP);
+        }
     }
     if let Some(MarkerPosition::On(at)) = heading {
         let at = board.marks(point(at), 12.0, OWN);
@@ -162,6 +196,16 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Taken, languag
     }
     if let Some(MarkerPosition::Edge(at, towards)) = truth {
         board.arrow(at, towards, &language.say("hud-now"), TRUE);
+    }
+    if let Some(MarkerPosition::Edge(at, towards)) = fallen {
+        board.arrow(at, towards, &language.say("hud-fallen-short"), SEEN);
+    }
+    if let Some([MarkerPosition::Edge(at, towards), _]) = moving {
+        board.arrow(at, towards, &language.say("hud-moving"), brake_colour(brake));
+    }
+    // Where the motion against the target is shown, that against the hovering ones would be one arrow too many.
+    if let (Some(MarkerPosition::Edge(at, towards)), None) = (heading, moving) {
+        board.arrow(at, towards, &language.say("hud-course"), OWN);
     }
     if let (Some((MarkerPosition::Edge(at, towards), _)), true) = (second, panel.by_light) {
         board.arrow(at, towards, &language.say("hud-second-image"), SEEN);
@@ -237,14 +281,52 @@ impl Board<'_> {
     }
 }
 
-/// A line of dots, with gaps where a place is not on the screen.
+/// The colour of what a brake sign says.
+pub fn brake_colour(brake: Brake) -> Color32 {
+    match brake {
+        Brake::Free => OWN,
+        Brake::Soon => TRUE,
+        Brake::Now => ALARM,
+    }
+}
+
+/// The name of the target's place, with how near one passes it, and how near it is caught.
+fn with_pass(name: String, panel: &Panel, language: Language) -> String {
+    let number = |value: f64| format!("{value:.1}");
+    let Some(reach) = panel.reach else { return name };
+    let passed = panel.pass.map_or(String::new(), |near| {
+        let ahead = format!("{:.0}", near.ahead);
+        language.fill("hud-passes", &[("distance", number(near.distance).as_str()), ("ahead", ahead.as_str())])
+    });
+    [name, passed, language.fill("hud-reach", &[("reach", number(reach).as_str())])]
+        .iter()
+        .filter(|part| !part.is_empty())
+        .cloned()
+        .collect::<Vec<_>>()
+        .join(" · ")
+}
+
+/// A line of dots with a dark edge, with gaps where a place is not on the screen; each piece ends in an arrow, so that its way is read.
 fn dotted(painter: &Painter, points: &[Option<Pos2>], colour: Color32) {
-    let palette = Palette::in_use(painter.ctx());
-    let (colour, wider) = (palette.shown(colour).gamma_multiply(0.8), palette.wider());
-    for pair in points.windows(2) {
-        if let [Some(from), Some(to)] = *pair {
-            painter.line_segment([from, from + (to - from) * 0.5], Stroke::new(1.4 + wider, colour));
+    for piece in points.split(|point| point.is_none()) {
+        let piece: Vec<Pos2> = piece.iter().flatten().copied().collect();
+        for pair in piece.windows(2) {
+            rimmed(painter, Stroke::new(1.4, colour), |stroke| Shape::line_segment([pair[0], pair[0] + (pair[1] - pair[0]) * 0.5], stroke));
         }
+        let Some(&tip) = piece.last() else { continue };
+        // The last place far enough off to tell a direction.
+        let Some(from) = piece.iter().rev().find(|from| from.distance(tip) > 4.0) else { continue };
+        let along = (tip - *from).normalized();
+        let side = vec2(-along.y, along.x);
+        let corners = vec![tip - along * 8.0 + side * 4.5, tip, tip - along * 8.0 - side * 4.5];
+        rimmed(painter, Stroke::new(1.4, colour), |stroke| Shape::line(corners.clone(), stroke));
+    }
+}
+
+/// An oblique cross.
+fn cross(painter: &Painter, at: Pos2, half: f32, stroke: Stroke) {
+    for side in [vec2(half, half), vec2(half, -half)] {
+        rimmed(painter, stroke, |stroke| Shape::line_segment([at - side, at + side], stroke));
     }
 }
 

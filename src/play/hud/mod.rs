@@ -22,15 +22,17 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
 use crate::scene::GameConfig;
 use crate::sim::bolts::HIT_RADIUS;
+use crate::sim::guidance::Brake;
 use crate::sim::player_commands::Avoiding;
 use crate::sim::replay::Playback;
-use crate::sim::{ActiveMission, Chase, ChaseRules, Progress};
+use crate::sim::{ActiveMission, Chase, ChaseRules, PlayerCommands, Progress};
 
 use crate::play::camera::CameraView;
 use crate::play::hud::instruments::{Countdown, Scale, hold_numbers};
 use crate::play::hud::notice::Notice;
 use crate::play::hud::paint::{ALARM, FAINT, OWN, TEXT, TRUE, TextBox, text};
 use crate::play::hud::panel::Panel;
+use crate::play::input::action::Action;
 use crate::play::input::bindings::Bindings;
 use crate::play::input::button::Device;
 use crate::play::menus::screens::Screen;
@@ -39,7 +41,7 @@ use crate::play::picture::stage_loading::CurrentStage;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::{GameSet, PaintSet};
 use crate::play::session::Session;
-use crate::play::words::Language;
+use crate::play::words::{self, Language};
 use markers::arc;
 
 /// Space between the screen's edge and the dials, in points.
@@ -77,7 +79,7 @@ fn draw(
     mut contexts: EguiContexts,
     (screen, session, player): (Res<State<Screen>>, Res<Session>, Res<PlayerState>),
     (chase, rules, avoiding): (Option<Res<Chase>>, Res<ChaseRules>, Res<Avoiding>),
-    (panel, (bindings, device)): (Res<Panel>, Buttons),
+    (panel, commands, (bindings, device)): (Res<Panel>, Option<Res<PlayerCommands>>, Buttons),
     (notice, real, current): (Res<Notice>, Res<Time<Real>>, Option<Res<CurrentStage>>),
     (mission, progress, playback): Flown,
     (slowing, mut slow, mut painted): (Res<Slowing>, Local<goals::Slow>, ResMut<Dials>),
@@ -114,13 +116,14 @@ fn draw(
     }
     let mut taken = markers::Taken { panels: said, other: Vec::new() };
     let Some(read) = panel.instruments else { return Ok(()) };
+    let helped = commands.is_some_and(|commands| commands.thrust == [0; 3]) && !player.autopilot && playback.is_none();
     let mut text_boxes = dials::lay_out(
         &painter,
         rect,
         &session,
         &player,
         &read,
-        dials::Going { replayed: playback.is_some(), slowing: slowing.0, by_light: panel.by_light },
+        dials::Going { replayed: playback.is_some(), slowing: slowing.0, by_light: panel.by_light, guidance: panel.guidance, helped },
     );
     let rules = rules.0;
     if let Some(chase) = chase.filter(|chase| chase.outcome.is_none()) {
@@ -160,7 +163,12 @@ fn draw(
     for text_box in text_boxes {
         text_box.paint(&painter);
     }
-    warnings(&painter, rect, avoiding.0, read.radius, language);
+    let brake = panel.guidance.is_some_and(|guide| guide.brake == Brake::Now) && panel.reach.is_some();
+    let edge =
+        mission.as_ref().zip(progress.as_ref()).is_some_and(|(mission, progress)| goals::near_edge(&mission.0, progress, read.radius));
+    let warned = Warned { avoiding: avoiding.0, brake: brake && !player.autopilot, edge, radius: read.radius };
+    let button = words::buttons::of(language, &bindings, *device, Action::ToggleAssist);
+    warnings(&painter, rect, &warned, &button, language);
     Ok(())
 }
 
@@ -222,11 +230,7 @@ fn extra(panel: &Panel, language: Language) -> Option<String> {
         _ if distance <= HIT_RADIUS => language.say("hud-bolt-hits"),
         _ => language.fill("hud-bolt-passes", &[("distance", number(distance).as_str())]),
     });
-    let near = panel.closest.map(|near| {
-        let ahead = format!("{:.0}", near.ahead);
-        language.fill("hud-passes", &[("distance", number(near.distance).as_str()), ("ahead", ahead.as_str())])
-    });
-    let words: Vec<String> = bolts.into_iter().chain(shot).chain(near).collect();
+    let words: Vec<String> = bolts.into_iter().chain(shot).collect();
     (!words.is_empty()).then(|| words.join("\n"))
 }
 
@@ -263,12 +267,26 @@ fn countdown(painter: &Painter, rect: Rect, scale: &Scale, countdown: &Countdown
     TextBox::lay_out(painter, top, Align2::CENTER_TOP, f32::INFINITY, &lines).over_bar(countdown.share() as f32, filled)
 }
 
-/// What must not be missed, in large letters.
-fn warnings(painter: &Painter, rect: Rect, avoiding: bool, radius: f64, language: Language) {
-    let words = match (avoiding, radius < 1.0) {
-        (true, _) => language.say("hud-pulling-away"),
-        (false, true) => language.say("hud-below-horizon"),
-        (false, false) => return,
+/// What must not be missed.
+struct Warned {
+    /// The assist pulls away from the hole.
+    avoiding: bool,
+    /// It is time to brake for the target.
+    brake: bool,
+    /// A little farther and the mission is lost.
+    edge: bool,
+    /// r of the ship, in r_s.
+    radius: f64,
+}
+
+/// Says it in large letters; `button` is what to hold for braking.
+fn warnings(painter: &Painter, rect: Rect, warned: &Warned, button: &str, language: Language) {
+    let words = match warned {
+        Warned { avoiding: true, .. } => language.say("hud-pulling-away"),
+        Warned { radius: ..1.0, .. } => language.say("hud-below-horizon"),
+        Warned { edge: true, .. } => language.say("hud-near-edge"),
+        Warned { brake: true, .. } => language.fill("hud-brake-now", &[("button", button)]),
+        _ => return,
     };
     text(painter, pos2(rect.center().x, rect.bottom() - MARGIN - 28.0), Align2::CENTER_BOTTOM, &words, 18.0, ALARM);
 }
@@ -320,7 +338,7 @@ mod tests {
                     &session,
                     &PlayerState::default(),
                     &read,
-                    dials::Going { replayed: false, slowing: 0.5, by_light: true },
+                    dials::Going { replayed: false, slowing: 0.5, by_light: true, guidance: None, helped: false },
                 );
                 text_boxes.push(countdown(painter, rect, &scale, &Countdown::at(1.0, 400.0)));
                 assert_eq!(text_boxes.len(), 6);

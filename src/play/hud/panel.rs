@@ -4,7 +4,7 @@ use bevy::prelude::*;
 use bevy::window::PrimaryWindow;
 
 use crate::play::camera::state_of;
-use crate::play::hud::ahead::{self, AheadLine, Approach};
+use crate::play::hud::ahead::{self, AheadLine, Pass};
 use crate::play::hud::instruments::Instruments;
 use crate::play::menus::entries::{Menu, Page};
 use crate::play::picture::CurrentShot;
@@ -13,9 +13,13 @@ use crate::play::player_state::PlayerState;
 use crate::scene::disk::Gas;
 use crate::scene::mission::GoalTask;
 use crate::sim::Outcome;
+use crate::sim::guidance::{Guidance, guidance};
+use crate::sim::pilot::aim::AimMarks;
+use crate::sim::pilot::rollout::Point;
 use crate::sim::seeing::{Phenomenon, Pointer, Scenery, SeenBody, Track, pointers};
 use crate::sim::sight::{Apparition, apparition, direction, emission_time, frequency_ratio, true_direction};
 use crate::sim::snapshot::FrameCamera;
+use crate::sim::target::known;
 use crate::spacetime::Observer;
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::Order;
@@ -47,7 +51,17 @@ pub struct Panel {
     /// One's own course, that of the target, and the way of a bolt fired now, if there are bolts.
     pub lines: [AheadLine; 3],
     /// How near one comes to the target by falling on.
-    pub closest: Option<Approach>,
+    pub pass: Option<Pass>,
+    /// Motion against the target.
+    pub guidance: Option<Guidance>,
+    /// Where that motion leads, in camera axes; None while there is hardly any.
+    pub moving: Option<glam::DVec3>,
+    /// Where the target is if it has fallen freely since its light left it, in camera axes, where nobody tells.
+    pub fallen: Option<glam::DVec3>,
+    /// Within this of the target it is caught, in r_s; None where it is not to be caught.
+    pub reach: Option<f64>,
+    /// Where to point the nose for a hit: straight, and round the hole; with r_s/c until it.
+    pub aims: Vec<(glam::DVec3, f64)>,
     /// How near a bolt fired now comes to the target as the dials show it, in r_s.
     pub shot_passes: Option<f64>,
     /// Bolts left, in a mission that has some.
@@ -55,6 +69,9 @@ pub struct Panel {
     /// What is on the screen, for the names of it, while they are shown.
     pub pointers: Vec<Pointer>,
 }
+
+/// Slower than this against the target, in c, motion has no direction.
+const STILL: f64 = 0.01;
 
 /// Whether the lines of what is to come are of use: in flight.
 fn camera_is_own(player: &PlayerState, outcome: Option<(Outcome, f64)>) -> bool {
@@ -68,6 +85,7 @@ pub(super) fn read_panel(
     windows: Query<&Window, With<PrimaryWindow>>,
     player: Res<PlayerState>,
     mut panel: ResMut<Panel>,
+    mut aimed: Local<AimMarks>,
 ) {
     let (Some(FrameCamera { camera, .. }), Some((history, engine, controls, fuel))) = (shot.0, now.own()) else { return };
     let time = now.time();
@@ -101,6 +119,14 @@ pub(super) fn read_panel(
     let aspect = windows.iter().next().map_or(16.0 / 9.0, |window| f64::from(window.width() / window.height().max(1.0)));
     let pointers = if seeing { pointed_at(&now, &camera, aspect) } else { Vec::new() };
     let moving = -relative_momentum(state.momentum, resting);
+    let to_camera = camera.attitude.conjugate();
+    let known = target.filter(|_| is_own).and_then(|history| known(&state, time, history, marked_now));
+    let reach = now.reach();
+    let guidance = known.map(|known| guidance(&Point::from(&state), &known.point, engine.max_thrust, reach.unwrap_or(0.0)));
+    let aims = match gun.filter(|gun| gun.left > 0).zip(known) {
+        Some((_, known)) => aimed.follow(&state, known.point).iter().map(|aim| (to_camera * aim.direction, aim.time)).collect(),
+        None => Vec::new(),
+    };
     *panel = Panel {
         instruments: Some(Instruments::read(&state, time, camera.radius(), thrust, (fuel.left, fuel.capacity), shown.as_ref())),
         images: [0, 1].map(|order| {
@@ -118,8 +144,13 @@ pub(super) fn read_panel(
         nose: is_own.then(|| camera.attitude.conjugate() * (state.attitude * glam::DVec3::NEG_Z)),
         gate,
         lines,
-        closest: there.filter(|_| marked_now && is_own).and_then(|there| ahead::closest(&camera, &state, &there)),
-        shot_passes: gun.filter(|_| is_own).and(shown).map(|there| ahead::shot_passes(&state, &there)),
+        pass: known.and_then(|known| ahead::pass(&camera, &state, &known.point)),
+        moving: guidance.filter(|guide| guide.velocity.length() > STILL).map(|guide| to_camera * guide.velocity.normalize()),
+        fallen: known.filter(|known| known.age > 0.0).and_then(|known| true_direction(&camera, known.point.x)),
+        guidance,
+        reach,
+        shot_passes: gun.zip(known).map(|(_, known)| ahead::shot_passes(&state, &known.point)),
+        aims,
         bolts: gun.map(|gun| gun.left),
         pointers,
     };

@@ -93,7 +93,8 @@ fn title(world: &World, session: &Session) -> Vec<Entry> {
 fn paused(language: Language) -> Vec<Entry> {
     vec![
         ask(language, "go-on", "menu-go-on", MenuAction::Pause),
-        ask(language, "again", "menu-start-again", MenuAction::Start),
+        ask(language, "again", "menu-start-again", MenuAction::Again),
+        ask(language, "another", "menu-another", MenuAction::Start),
         open(language, "seeing", "menu-seeing", Page::Seeing),
         ask(language, "photo", "menu-photo", MenuAction::Photo),
         open(language, "settings", "menu-settings", Page::Settings),
@@ -108,7 +109,8 @@ fn result(world: &World, session: &Session) -> Vec<Entry> {
     let last = world.get_resource::<LastFlight>();
     let won = session.scene.mission.is_some() && last.is_some_and(|last| last.won.is_some());
     let kept = last.is_some_and(|last| last.replay.is_some());
-    let mut entries = vec![ask(language, "again", "menu-again", MenuAction::Start)];
+    let mut entries =
+        vec![ask(language, "again", "menu-again", MenuAction::Again), ask(language, "another", "menu-another", MenuAction::Start)];
     entries.extend(won.then(|| ask(language, "next", "menu-next", MenuAction::Next)));
     entries.extend(kept.then(|| ask(language, "watch", "menu-watch", MenuAction::Watch)));
     entries.push(ask(language, "title", "menu-title", MenuAction::Title));

@@ -37,6 +37,8 @@ impl Screen {
 pub enum MenuAction {
     /// A new flight of what is chosen; where one is flown, of the same again.
     Start,
+    /// The same flight again, from the same start.
+    Again,
     /// The next mission.
     Next,
     /// The last flight, to look at.
@@ -62,7 +64,7 @@ pub fn answer(screen: Screen, action: MenuAction) -> Option<(Screen, bool)> {
     match (screen, action) {
         (Screen::Warning, MenuAction::Title) => Some((Screen::Title, true)),
         (Screen::Warning, _) => None,
-        (_, MenuAction::Start) => Some((Screen::Playing, true)),
+        (_, MenuAction::Start) | (Screen::Playing | Screen::Paused | Screen::Result, MenuAction::Again) => Some((Screen::Playing, true)),
         (Screen::Result, MenuAction::Next | MenuAction::Watch) => Some((Screen::Playing, true)),
         (Screen::Playing, MenuAction::Pause) => Some((Screen::Paused, false)),
         (Screen::Paused, MenuAction::Pause) => Some((Screen::Playing, false)),

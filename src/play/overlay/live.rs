@@ -9,6 +9,7 @@ use bevy::prelude::*;
 use crate::scene::GameConfig;
 use crate::scene::config;
 use crate::scene::ship::Ai;
+use crate::sim::assist::AssistMode;
 use crate::sim::player_commands::ManualControl;
 use crate::sim::replay::ReplayLog;
 use crate::sim::setup::{reach_of, skills};
@@ -130,7 +131,7 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
         }
     }
     // The key switches for the chase; a change of the configuration is newer.
-    if before.as_ref().is_some_and(|before| before.assist.enabled != config.assist.enabled)
+    if before.as_ref().is_some_and(|before| AssistMode::of(before) != AssistMode::of(config))
         && let Some(mut player) = world.get_resource_mut::<PlayerState>()
     {
         player.assist = None;

@@ -6,7 +6,8 @@ use bevy::prelude::*;
 use crate::play::missions::Ghost;
 use crate::play::session::Session;
 use crate::sim::bolts::Gun;
-use crate::sim::{ActiveMission, Bolts, Chase, Clock, Controls, Engine, Fleet, Fuel, History, Progress};
+use crate::sim::goals::catch_radius;
+use crate::sim::{ActiveMission, Bolts, Chase, ChaseRules, Clock, Controls, Engine, Fleet, Fuel, History, Progress};
 
 /// T of the frame, in r_s/c: at most a step before the clock's.
 pub fn time(clock: &Clock, fixed: &Time<Fixed>) -> f64 {
@@ -24,6 +25,7 @@ pub struct Now<'w, 's> {
     fixed: Res<'w, Time<Fixed>>,
     fleet: Res<'w, Fleet>,
     bolts: Res<'w, Bolts>,
+    rules: Res<'w, ChaseRules>,
     ghost: Option<Res<'w, Ghost>>,
     /// The mission and how far it has come.
     pub mission: Option<Res<'w, ActiveMission>>,
@@ -63,6 +65,11 @@ impl Now<'_, '_> {
     /// The player's gun, in a mission.
     pub fn gun(&self) -> Option<Gun> {
         self.fleet.0.get(self.session.player()).and_then(|&ship| self.guns.get(ship).ok()).copied()
+    }
+
+    /// How near the target must be to be caught, in r_s; None where the present goal is another.
+    pub fn reach(&self) -> Option<f64> {
+        catch_radius(self.mission.as_deref(), self.progress.as_deref(), &self.rules)
     }
 
     /// The worldline of the ship that the player is after, and its index.

@@ -51,6 +51,8 @@ pub struct Beacon {
 pub enum Alarm {
     /// The hole is near, or the assist pulls away from it.
     Hole,
+    /// It is time to brake for the target.
+    Brake,
     /// The time is nearly out.
     Time,
     /// The tanks are nearly empty.

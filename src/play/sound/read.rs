@@ -14,9 +14,13 @@ use crate::play::sound::heard::{Alarm, Beacon, Heard, load, loudness};
 use crate::play::words::Language;
 use crate::scene::disk::Gas;
 use crate::sim::bolts::Hits;
+use crate::sim::goals::catch_radius;
+use crate::sim::guidance::{Brake, guidance};
 use crate::sim::pilot::rollout::Point;
 use crate::sim::player_commands::Avoiding;
+use crate::sim::ship::Manual;
 use crate::sim::sight::{direction, emission_time, frequency_ratio};
+use crate::sim::target::known;
 use crate::sim::{ActiveMission, Bolts, Chase, ChaseRules, Clock, Controls, Engine, Fleet, Fuel, History, Progress, ShipMotion, Turning};
 use crate::spacetime::Observer;
 use crate::spacetime::frames::relative_velocity;
@@ -77,7 +81,7 @@ impl Listener {
             wind,
             beacon: target.and_then(|target| beacon(&state, attitude.unwrap_or(state.attitude), time, target)),
             hold: if outcome.is_none() { hold(world) } else { 0.0 },
-            alarm: if outcome.is_none() { alarm(world, own, &state, time) } else { None },
+            alarm: if outcome.is_none() { alarm(world, own, &state, time, target) } else { None },
             danger: if outcome.is_none() { dangers(world, fleet, own, time) } else { 0.0 },
             bolt: bolts.map(|bolt| bolt.fired).reduce(f64::max),
             hits: fleet.0.iter().filter_map(|&ship| world.get::<Hits>(ship)).map(|hits| hits.0).sum(),
@@ -141,12 +145,15 @@ fn hold(world: &World) -> f64 {
 }
 
 /// The most urgent alarm.
-fn alarm(world: &World, own: Entity, state: &ShipState, time: f64) -> Option<Alarm> {
+fn alarm(world: &World, own: Entity, state: &ShipState, time: f64, target: Option<&History>) -> Option<Alarm> {
     // Where the way leads inside, the hole is no danger.
     let goes_inside = world.get_resource::<ActiveMission>().is_some_and(|mission| mission.0.inside);
     let avoiding = world.get_resource::<Avoiding>().is_some_and(|avoiding| avoiding.0);
     if avoiding || (!goes_inside && state.position.length() < TOO_NEAR) {
         return Some(Alarm::Hole);
+    }
+    if brakes(world, own, state, time, target) {
+        return Some(Alarm::Brake);
     }
     if countdown(world, time).is_some_and(|countdown| countdown.late()) {
         return Some(Alarm::Time);
@@ -154,6 +161,17 @@ fn alarm(world: &World, own: Entity, state: &ShipState, time: f64) -> Option<Ala
     let fuel = world.get::<Fuel>(own)?;
     let share = fuel.left / fuel.capacity;
     (fuel.capacity.is_finite() && share > 0.0 && share < LOW_FUEL).then_some(Alarm::Fuel)
+}
+
+/// Whether who flies by hand must brake at once to catch the target.
+fn brakes(world: &World, own: Entity, state: &ShipState, time: f64, target: Option<&History>) -> bool {
+    let (mission, progress) = (world.get_resource::<ActiveMission>(), world.get_resource::<Progress>());
+    let marks_now = mission.is_none_or(|mission| mission.0.now_marker);
+    let reach = world.get_resource::<ChaseRules>().and_then(|rules| catch_radius(mission, progress, rules));
+    let by_hand = world.get::<Manual>(own).is_some();
+    let (Some(reach), Some(history), Some(engine), true) = (reach, target, world.get::<Engine>(own), by_hand) else { return false };
+    let known = known(state, time, history, marks_now);
+    known.is_some_and(|known| guidance(&Point::from(state), &known.point, engine.max_thrust, reach).brake == Brake::Now)
 }
 
 /// The time for the flight, where it is limited.

@@ -136,6 +136,34 @@ impl Mark<'_> {
     }
 }
 
+/// The directions that hit, followed from frame to frame: each is corrected from where it was, and all are looked for anew now and then.
+#[derive(Clone, Debug, Default)]
+pub struct AimMarks {
+    found: Vec<Aim>,
+    /// Frames until they are looked for anew.
+    wait: u32,
+}
+
+/// Frames between two searches: half a second of a fast display.
+const SEARCH_EACH: u32 = 30;
+
+impl AimMarks {
+    /// The directions for a shooter and a target that coasts: the quickest straight one, and the quickest round the hole.
+    pub fn follow(&mut self, own: &ShipState, target: Point) -> &[Aim] {
+        let mark = Mark { own, target, burn: PlannedBurn::COAST };
+        if self.wait == 0 {
+            let mut hits = mark.hits();
+            hits.sort_by(|a, b| a.time.total_cmp(&b.time));
+            self.found = [false, true].into_iter().filter_map(|round| hits.iter().copied().find(|hit| hit.round == round)).collect();
+            self.wait = SEARCH_EACH;
+        } else {
+            self.found = self.found.iter().filter_map(|aim| mark.refine(aim.direction)).collect();
+            self.wait -= 1;
+        }
+        &self.found
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

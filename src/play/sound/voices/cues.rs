@@ -26,6 +26,7 @@ struct Pattern {
 fn pattern(alarm: Alarm) -> Pattern {
     match alarm {
         Alarm::Hole => Pattern { period: 0.6, notes: &[(0.0, 311.13, 1.0), (0.3, 233.08, 1.0)] },
+        Alarm::Brake => Pattern { period: 0.5, notes: &[(0.0, 466.16, 0.8)] },
         Alarm::Time => Pattern { period: 1.0, notes: &[(0.0, 587.33, 0.6)] },
         Alarm::Fuel => Pattern { period: 6.0, notes: &[(0.0, 392.0, 0.8), (0.22, 311.13, 0.8)] },
     }
