@@ -18,7 +18,7 @@ pub const FOLDER_VARIABLE: &str = "LENSRUNNER_CONFIG";
 /// The sections that are the player's.
 const SECTIONS: [&str; 5] = ["video", "sound", "controls", "accessibility", "interface"];
 /// Single settings of other sections that are.
-const OTHERS: [&str; 3] = ["assist.enabled", "assist.avoid_hole", "clock.slow_near_danger"];
+const OTHERS: [&str; 4] = ["assist.enabled", "assist.reference", "assist.avoid_hole", "clock.slow_near_danger"];
 
 /// Whether a setting is the player's to choose.
 pub fn is_players(setting: &Setting<GameConfig>) -> bool {

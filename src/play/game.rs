@@ -115,6 +115,11 @@ fn choose_scene(world: &mut World, screen: Screen) {
     }
 }
 
+/// Whether a flight began anew since T was `before` (r_s/c), which becomes `time`.
+pub fn begins_anew(before: &mut f64, time: f64) -> bool {
+    std::mem::replace(before, time) > time
+}
+
 /// Keys that switch something.
 fn read_keys(
     input: PlayerInput,

@@ -1,12 +1,14 @@
 //! Playing: screens, input, camera, HUD, dev overlay, and the demonstration flight without a display.
 //!
-//! Each feature is a plugin: [`game`] (screens, keys, time), [`picture`] (camera and frame), [`hud`], [`menus`], [`overlay`], [`sound`],
+//! Each feature is a plugin: [`game`] (screens, keys, time), [`picture`] (camera and frame), [`hud`], [`coach`], [`menus`], [`overlay`],
+//! [`sound`],
 //! [`window`] (which adds them all to an app); [`schedule`] says in which order they run. [`demonstration`] flies the chase to files
 //! without a window.
 //! They share [`session`] (what is played), [`player_state`] (how the player plays) and [`camera`].
 
 pub mod camera;
 pub mod choices;
+pub mod coach;
 pub mod demonstration;
 pub mod develop;
 pub mod files;

@@ -243,7 +243,11 @@ impl Step<'_, '_, '_, '_> {
             GoalTask::Burn { .. } => so_far + engine.thrust(controls.0.thrust).length() * self.clock.step,
             GoalTask::Turn { .. } => so_far + rotation(before.attitude, own.attitude).length(),
             // The assist goes on with a little, as drift fades.
-            GoalTask::Coast { .. } => lasts(controls.0.thrust.length() < COASTING * engine.max_thrust),
+            // Who has let go by hand has done what was asked, whatever the assist does.
+            GoalTask::Coast { .. } => {
+                let let_go = !self.commands.autopilot && self.commands.thrust == [0; 3] && !self.commands.matching;
+                lasts(let_go || controls.0.thrust.length() < COASTING * engine.max_thrust)
+            }
             GoalTask::Look { ship, angle, .. } => lasts(self.commands.looking || self.is_ahead(&own, ship, angle)),
             GoalTask::Reach { least, most, .. } => lasts((least..=most).contains(&r)),
             GoalTask::Hold { ship, distance, .. } => {

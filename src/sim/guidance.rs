@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::bolts::nearest;
 use super::pilot::rollout::{Point, advance};
 
 /// Motion of a ship against its target, on the slice T = const.
@@ -71,6 +72,17 @@ impl Guidance {
     pub fn sideways(&self) -> f64 {
         self.velocity.reject_from(self.apart.try_normalize().unwrap_or(DVec3::X)).length()
     }
+}
+
+/// Whether two that coast come within `reach` (r_s) of each other in the next `span` (r_s/c).
+pub fn meets(own: &Point, target: &Point, span: f64, reach: f64) -> bool {
+    let step = AHEAD.0 / AHEAD.1 as f64;
+    let (mut own, mut target) = (*own, *target);
+    (0..(span / step).ceil().max(0.0) as usize).any(|_| {
+        let before = own.x - target.x;
+        [own, target] = [own, target].map(|point| advance(&point, step, 1.0, |_| DVec3::ZERO));
+        nearest(before, own.x - target.x) <= reach
+    })
 }
 
 /// How far ahead two ships are looked after, in r_s/c, and in how many pieces.

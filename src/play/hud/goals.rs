@@ -63,11 +63,21 @@ pub fn lay_out(painter: &Painter, rect: Rect, top: f32, goals: &Goals, slow: &mu
     };
     let hint = hint.map(|hint| with_buttons(&hint, button));
     let mut lines = vec![(number.as_str(), 11.0, FAINT), (text.as_str(), 15.0, TRUE)];
+    let held = held_words(scene.0, mission, progress, &rules);
+    lines.extend(held.as_ref().map(|words| (words.as_str(), 12.0, TEXT)));
     lines.extend(hint.as_ref().map(|hint| (hint.as_str(), 12.0, TEXT)));
     let at = pos2(rect.center().x, top);
     let share = progress.share(mission, &rules);
     let widest = WIDEST.min(0.6 * rect.width());
     Some(TextBox::lay_out(painter, at, Align2::CENTER_TOP, widest, &lines).over_bar(share as f32, OWN))
+}
+
+/// How near a ship must be held, and for how long, where that is the goal.
+fn held_words(language: Language, mission: &Mission, progress: &Progress, rules: &ChaseRules) -> Option<String> {
+    let task = &mission.goals.get(progress.goal)?.task;
+    let GoalTask::Hold { distance, .. } = task else { return None };
+    let [reach, span] = [distance.unwrap_or(rules.0.capture_radius), needed(task, mission, rules)].map(|value| format!("{value:.2}"));
+    Some(language.fill("hud-hold-needs", &[("reach", reach.as_str()), ("span", span.as_str())]))
 }
 
 /// From this share of the farthest allowed radius on the edge is near.

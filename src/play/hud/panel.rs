@@ -79,7 +79,7 @@ fn camera_is_own(player: &PlayerState, outcome: Option<(Outcome, f64)>) -> bool 
 }
 
 /// Reads the numbers of the frame that is drawn.
-pub(super) fn read_panel(
+pub(in crate::play) fn read_panel(
     now: Now,
     (shot, menu): (Res<CurrentShot>, Res<Menu>),
     windows: Query<&Window, With<PrimaryWindow>>,

@@ -23,6 +23,7 @@ use bevy::prelude::*;
 use bevy_egui::egui::{self, Align2, RichText, ScrollArea, Ui, vec2};
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
+use crate::play::coach::review::Review;
 use crate::play::hud::notice::Notice;
 use crate::play::hud::paint::{FAINT, OWN, SEEN, SHADE, TEXT, TRUE};
 use crate::play::hud::palette::Palette;
@@ -65,15 +66,20 @@ impl Plugin for MenusPlugin {
 }
 
 /// What the menus are painted from.
-type Flight<'w> =
-    (Option<Res<'w, Chase>>, Res<'w, Panel>, Res<'w, PlayerState>, Option<Res<'w, Catalogue>>, Res<'w, Records>, Res<'w, LastFlight>);
+type Flight<'w> = (
+    (Option<Res<'w, Chase>>, Res<'w, Review>, Res<'w, LastFlight>),
+    Res<'w, Panel>,
+    Res<'w, PlayerState>,
+    Option<Res<'w, Catalogue>>,
+    Res<'w, Records>,
+);
 
 /// Draws the menu of the screen.
 fn draw(
     mut contexts: EguiContexts,
     screen: Res<State<Screen>>,
     session: Res<Session>,
-    (chase, panel, player, catalogue, records, last): Flight,
+    ((chase, review, last), panel, player, catalogue, records): Flight,
     (bindings, device): (Res<Bindings>, Res<Device>),
     mut menu: ResMut<Menu>,
 ) -> Result {
@@ -109,7 +115,7 @@ fn draw(
             footer(ui, prompts, false);
         }),
         Screen::Result => card(context, "result", NARROW, |ui| {
-            outcome::result(ui, &session, chase.as_deref(), &panel, player.flown);
+            outcome::result(ui, &session, chase.as_deref(), &panel, (player.flown, &review));
             outcome::score(ui, &session, &last);
             rows(ui, menu);
         }),

@@ -3,6 +3,7 @@
 use bevy_egui::egui::{Color32, RichText, Ui};
 
 use super::words::{stars, unit};
+use crate::play::coach::review::{Lesson, Review};
 use crate::play::hud::instruments::Scale;
 use crate::play::hud::paint::{ALARM, FAINT, OWN, TEXT, TRUE};
 use crate::play::hud::palette::Palette;
@@ -10,15 +11,19 @@ use crate::play::hud::panel::Panel;
 use crate::play::missions::LastFlight;
 use crate::play::player_state::Flown;
 use crate::play::session::Session;
+use crate::play::words::Language;
 use crate::sim::{Chase, Outcome};
 
 /// Says how the flight ended, and its times.
-pub(super) fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, panel: &Panel, flown: Flown) {
+pub(super) fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, panel: &Panel, (flown, review): (Flown, &Review)) {
     let Some((outcome, time)) = chase.and_then(|chase| chase.outcome) else { return };
     let (palette, language) = (Palette::in_use(ui.ctx()), session.language());
     let mut line = |words: &str, size: f32, colour| _ = ui.label(RichText::new(words).size(size).color(palette.shown(colour)));
     line(&language.say(&format!("outcome-{}", outcome.name())), 34.0, colour_of(outcome));
     line(&language.say(&format!("outcome-{}-why", outcome.name())), 15.0, TEXT);
+    if let Some(words) = review.lesson(outcome).filter(|_| flown.by_hand).map(|lesson| lesson_words(language, lesson)) {
+        line(&words, 15.0, TRUE);
+    }
     if let Some(key) = pilot(flown) {
         line(&language.say(key), 13.0, TRUE);
     }
@@ -31,6 +36,20 @@ pub(super) fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, pane
     }
     if let Some(fuel) = panel.instruments.and_then(|read| read.fuel) {
         line(&say("result-fuel", &format!("{:.0} %", 100.0 * fuel)), 13.0, FAINT);
+    }
+}
+
+/// Why a flight was lost, in a sentence.
+fn lesson_words(language: Language, lesson: Lesson) -> String {
+    let tenth = |value: f64| format!("{value:.1}");
+    match lesson {
+        Lesson::Fell => language.say("lesson-fell"),
+        Lesson::Passed { times, speed, from } => {
+            let [times, speed, from] = [times.to_string(), format!("{speed:.2}"), tenth(from)];
+            language.fill("lesson-passed", &[("times", times.as_str()), ("speed", speed.as_str()), ("from", from.as_str())])
+        }
+        Lesson::Dry(time) => language.fill("lesson-dry", &[("time", tenth(time).as_str())]),
+        Lesson::Far(distance) => language.fill("lesson-far", &[("distance", tenth(distance).as_str())]),
     }
 }
 

@@ -25,7 +25,8 @@ pub struct Now<'w, 's> {
     fixed: Res<'w, Time<Fixed>>,
     fleet: Res<'w, Fleet>,
     bolts: Res<'w, Bolts>,
-    rules: Res<'w, ChaseRules>,
+    /// The rules in force.
+    pub rules: Res<'w, ChaseRules>,
     ghost: Option<Res<'w, Ghost>>,
     /// The mission and how far it has come.
     pub mission: Option<Res<'w, ActiveMission>>,

@@ -17,6 +17,7 @@ use bevy::winit::WinitPlugin;
 use bevy_egui::EguiPlugin;
 
 use crate::play::choices::Choices;
+use crate::play::coach::CoachPlugin;
 use crate::play::game::{GamePlugin, begin};
 use crate::play::hud::HudPlugin;
 use crate::play::hud::notice::Notice;
@@ -128,6 +129,7 @@ pub fn app(mut session: Session, options: &Options, surface: OutputSurface, choi
             MissionsPlugin { folder: options.data.clone() },
             PicturePlugin,
             HudPlugin,
+            CoachPlugin,
             MenusPlugin,
             OverlayPlugin,
             InterfacePlugin { picture: if let OutputSurface::Picture(size) = surface { Some(size) } else { None } },

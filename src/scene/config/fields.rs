@@ -307,6 +307,7 @@ config! {
     interface: Interface {
         language: String = "auto", Choice(&["auto", "en", "ja"]), "", "language of all words; auto is that of the system, English where it has another";
         hud: String = "full", Choice(&["full", "reduced", "least"]), "", "how much the HUD shows";
+        coach: bool = true, Switch, "", "hints while one flies by hand, by what happens";
         warned: bool = false, Switch, "", "the warning at the first start has been read";
     }
 }
