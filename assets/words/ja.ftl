@@ -10,12 +10,12 @@ menu-manual = 説明書
 menu-quit = 終わる
 menu-paused = 一時停止
 menu-go-on = 続ける
-menu-start-again = 同じ条件でもう一度
-menu-another = 別の条件で
+menu-start-again = 同じ始まりでもう一度
+menu-another = 別の始まりで
 menu-seeing = 何が見えているの？
 menu-photo = 写真モード
 menu-title = タイトルへ
-menu-again = 同じ条件でもう一度
+menu-again = 同じ始まりでもう一度
 menu-next = 次のミッション
 menu-watch = 飛行を見る
 menu-back = もどる
@@ -130,13 +130,13 @@ hud-load = 荷重
 hud-load-assist = 荷重（アシスト）
 hud-stops = 横 { $sideways } c · 停止まで { $stopping } r_s
 hud-brake-now = 今すぐ減速：{ $button } を押し続ける
-hud-near-edge = 遠すぎます：引き返せ
-hud-moving = 相対運動
+hud-near-edge = 遠すぎます：もどれ
+hud-moving = 横流れ
 hud-against = 減速
-hud-fallen = 自由落下ならここ
+hud-fallen = 自由に落ちたらここ
 hud-fallen-short = 落下先
-hud-aim = ここを狙う、{ $time } で命中
-hud-reach = 捕獲 { $reach }
+hud-aim = ここをねらう、{ $time } で命中
+hud-reach = つかまえる { $reach }
 hud-range = 距離
 hud-range-seen = 見かけの距離
 hud-closing = 近づく速さ
@@ -196,14 +196,14 @@ unit-hours = { $value } 時間
 unit-minutes = { $value } 分
 
 ## コーチ
-coach-hopeless = 燃料が尽き、この軌道ではもう標的に会えません。{ $button }：同じ条件でもう一度
-coach-hole = ブラックホールが近い：早めに運動の向きへ噴射
+coach-hopeless = 燃料がなく、この軌道ではもう標的に近づけません。{ $button }：同じ始まりでもう一度
+coach-hole = ブラックホールが近い：早めに進む向きへ噴射
 coach-brake = 速すぎて標的で止まれません：表示が消えるまで { $button } を押し続ける
 coach-drift = 横に流れています：左に「アシスト：標的」が出るまで { $button } を押す
-coach-fuel = 燃料わずか：落下に任せ、減速に残す
-lesson-fell = 深く落ちすぎました。r = 3 より内側では軌道に沿う速さだけが支えます。早めに運動の向きへ噴射。
+coach-fuel = 燃料わずか：落下にまかせ、減速に残す
+lesson-fell = 深く落ちすぎました。r = 3 より内側では軌道に沿った速さだけがたよりです。早めに進む向きへ噴射。
 lesson-passed = { $speed } c 以上で { $times } 回通り過ぎました。{ $from } r_s 手前から減速。
-lesson-dry = T = { $time } で燃料が尽きました。もっと落下に任せ、噴射を減らす。
+lesson-dry = T = { $time } で燃料がなくなりました。もっと落下にまかせ、噴射を減らす。
 lesson-far = { $distance } r_s より近づけませんでした。今いる場所へ噴射し、追いつくには下へ。
 
 ## 何が見えているの？
@@ -286,7 +286,7 @@ setting-interface-coach = 飛行中の助言
 setting-interface-hud = 計器の量
 setting-interface-warned = 注意を読んだ
 setting-assist-enabled = アシスト：流れを止める
-setting-assist-reference = アシストの基準
+setting-assist-reference = アシストが合わせるもの
 setting-assist-avoid-hole = アシストがブラックホールを避ける
 setting-clock-slow-near-danger = 危険の近くではゆっくり
 setting-controls-mouse-sensitivity = マウスの感度

@@ -8,15 +8,15 @@ mission-01-training-brief =
 mission-01-training-goal-1 = 噴射する
 mission-01-training-goal-1-hint = [thrust_forward] を押し続けると、エンジンが船を前へ押します。[thrust_back] は後ろへ、[thrust_left] と [thrust_right] は横へ押します。[boost] で全力噴射です。
 mission-01-training-goal-2 = 船の向きを変える
-mission-01-training-goal-2-hint = マウスか、[yaw_left]・[yaw_right]・[pitch_up]・[pitch_down] を使います。変わるのは船首の向きだけです。飛んでいく方向は変わりません。
+mission-01-training-goal-2-hint = マウスか、[yaw_left]・[yaw_right] を使います。[pitch_up] で船首が上へ、[pitch_down] で下へ向きます。変わるのは船首の向きだけです。飛んでいく方向は変わりません。
 mission-01-training-goal-3 = 落ちる：キーから手をはなす
-mission-01-training-goal-3-hint = すべてから手をはなしてください。バーがのびないときは、アシストがまだブレーキをかけています。[toggle_assist] で切れます。
+mission-01-training-goal-3-hint = マウスも、すべてから手をはなしてください。アシストはまだ少し噴射して、落下を円軌道に変えます。
 mission-01-training-goal-4 = ドローンを見る
 mission-01-training-goal-4-hint = [look_at_target] を押し続けるか、船首を青い印へ向けます。その光は、少し前にドローンを出たものです。どれだけ前かは、印に書いてあります。
 mission-01-training-goal-5 = r = 7 まで下りる
 mission-01-training-goal-5-hint = ブラックホール（赤い矢印）のほうを向いて、[thrust_forward] を押し続けます。r は右上に出ています。手をはなすと、アシストが落下を円軌道に変えます。前より速い円軌道です。
 mission-01-training-goal-6 = ドローンをつかまえる：1.5 r_s 以内にとどまる
-mission-01-training-goal-6-hint = 「現在」の輪へ飛びましょう。ドローンはそこにいます。見える姿は、おくれています。速すぎたら [slower] で、すべてがゆっくりになります。
+mission-01-training-goal-6-hint = 「現在」の輪へ飛びましょう。[toggle_assist] を軽く押して「アシスト：標的」にします。「今すぐ減速」と出たら、押し続けます。[slower] で、すべてがゆっくりになります。
 
 mission-02-first-pursuit-title = 最初の追跡
 mission-02-first-pursuit-idea = 低い軌道ほど速く回ります。追いつきたければ、下りましょう。
@@ -24,7 +24,7 @@ mission-02-first-pursuit-brief =
     燃料が残り少ない貨物船が、遠くの軌道をあなたから逃げています。画面の中央の輪が閉じるまで、そのそばにいてください。
     ねらうのは、見えている姿ではなく「現在」の輪です。見えているのは、前にいた場所です。
 mission-02-first-pursuit-goal-1 = 貨物船をつかまえる：そばにとどまる
-mission-02-first-pursuit-goal-1-hint = 「現在」の輪へ向けて噴射し、半分まで来たらブレーキをかけます。ひとりでに止まることはありません。小さな輪は、最も近づく場所です。
+mission-02-first-pursuit-goal-1-hint = 「現在」の輪へ向けて噴射します。[toggle_assist] を軽く押して「アシスト：標的」にします。「今すぐ減速」と出たら、押し続けます。小さな輪は、最も近づく場所です。
 
 mission-03-through-the-disk-title = 円盤をぬけて
 mission-03-through-the-disk-idea = 光はブラックホールの上を曲がって届きます。だから、円盤の向こう側が上に見えます。
@@ -42,7 +42,7 @@ mission-04-the-ghost-brief =
 mission-04-the-ghost-goal-1 = 幽霊船の光を見つける
 mission-04-the-ghost-goal-1-hint = [look_at_target] を押し続けると、カメラが第1の像のほうを向きます。印のそばの数字は、その像がどれだけ古いかを表します。
 mission-04-the-ghost-goal-2 = 幽霊船をつかまえる
-mission-04-the-ghost-goal-2-hint = 像の進む道すじの先を目ざしましょう。どれだけ先かは、「古さ × 速さ」でわかります。
+mission-04-the-ghost-goal-2-hint = 「自由に落ちたらここ」の十字を目ざしましょう。噴射していなければ、船はそこにいます。減速は「現在」の輪のときと同じです。
 
 mission-05-the-last-orbit-title = 最後の軌道
 mission-05-the-last-orbit-idea = r = 3 より下の円軌道は不安定です。少しずれただけで、落ちこむか、外へ飛び出します。
@@ -62,7 +62,7 @@ mission-06-the-long-shot-brief =
     標的は、ブラックホールの反対側にいます。弾は 0.8 c で飛び、ブラックホールのまわりで曲がり、ほかのものと同じように、おくれて見えます。
     線は、今撃ったら弾がどこを通るかを示します。右の数字は、残りの弾の数です。
 mission-06-the-long-shot-goal-1 = 標的に弾を当てる
-mission-06-the-long-shot-goal-1-hint = 右の表示が「命中」になるまで、船の向きを変えます。赤は弾の、青は標的の道すじです。マウスの左ボタンで撃ちます。
+mission-06-the-long-shot-goal-1-hint = 船首を赤い十字へ向けます。まっすぐでも、ブラックホールを回りこんでもかまいません。右に「命中」と出たら [fire] で撃ちます。[slower] で、ゆっくりねらえます。
 
 mission-07-arrive-young-title = 若いままゴールへ
 mission-07-arrive-young-idea = 自分の時計は、深いところほど、また速く飛ぶほど、ゆっくり進みます。

@@ -6,7 +6,7 @@ use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
 
 use crate::scene::config;
-use crate::sim::player_commands::choose_pilot;
+use crate::sim::by_hand::choose_pilot;
 use crate::sim::replay::Playback;
 use crate::sim::ship::Player;
 use crate::sim::{Chase, Clock, Engine, Fleet, PlayerCommands, ShipMotion, SimSet, Turning, board, outcome, start};
@@ -363,7 +363,8 @@ pub(in crate::play) mod tests {
         app.update();
         let before = time(&app);
         (0..5).for_each(|_| app.update());
-        assert!(time(&app) > before + 0.5, "{} {before}", time(&app));
+        // Slowly, before the first input.
+        assert!(time(&app) > before + 0.1, "{} {before}", time(&app));
         push(&mut app, KeyCode::Escape);
         assert_eq!(screen(&app), Screen::Paused);
         let before = time(&app);
@@ -403,7 +404,7 @@ pub(in crate::play) mod tests {
         app.update();
         push(&mut app, KeyCode::KeyZ);
         assert_eq!(assist(&app), AssistMode::Orbit, "switched on where off is configured");
-        app.world_mut().resource_mut::<Session>().config.assist.reference = "target".into();
+        app.world_mut().resource_mut::<Session>().config.assist.enabled = true;
         app.update();
         assert!(app.world().resource::<PlayerState>().assist.is_none(), "a changed configuration goes before the key");
     }

@@ -1,14 +1,10 @@
-//! The player's commands, in whole numbers that a replay keeps exactly, and how they become the controls of the player's ship.
+//! The player's commands, in whole numbers that a replay keeps exactly, and what they make of a ship.
 
 use bevy::prelude::*;
 use glam::DVec3;
 
-use super::SimSet;
 use super::assist::{AssistMode, AssistSettings, Assisted, Reference, Stick, assisted, direct, kept_off, matched};
-use super::bolts::Trigger;
-use super::clock::Clock;
-use super::ship::{Controls, Engine, Manual, Player, ShipMotion};
-use super::target::Targets;
+use super::ship::Engine;
 use crate::scene::GameConfig;
 use crate::spacetime::matter::ShipState;
 
@@ -82,33 +78,6 @@ impl From<&GameConfig> for ManualControl {
     }
 }
 
-/// The assist has taken the thrust from the player in the last step to keep off the hole.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Avoiding(pub bool);
-
-/// The player's commands to the player's ship, in `SimSet::Input`.
-pub struct PlayerCommandsPlugin;
-
-impl Plugin for PlayerCommandsPlugin {
-    fn build(&self, app: &mut App) {
-        app.init_resource::<PlayerCommands>().init_resource::<Avoiding>().add_systems(
-            FixedUpdate,
-            (choose_pilot, apply_commands).chain().in_set(SimSet::Input).run_if(resource_exists::<ManualControl>),
-        );
-    }
-}
-
-/// The player's ship is flown by hand, unless the player lets the autopilot fly.
-pub fn choose_pilot(player_commands: Res<PlayerCommands>, ships: Query<(Entity, Has<Manual>), With<Player>>, mut commands: Commands) {
-    for (ship, manual) in &ships {
-        match (player_commands.autopilot, manual) {
-            (true, true) => _ = commands.entity(ship).remove::<Manual>(),
-            (false, false) => _ = commands.entity(ship).insert(Manual),
-            _ => (),
-        }
-    }
-}
-
 impl PlayerCommands {
     /// Whether they need to know how the target moves.
     pub fn needs_target(&self) -> bool {
@@ -125,28 +94,6 @@ impl PlayerCommands {
             (_, AssistMode::Off, _) => free(direct(&stick, engine)),
             (_, AssistMode::Target, Some(velocity)) => assisted(state, &stick, engine, Reference::Target(velocity), settings),
             (_, AssistMode::Orbit | AssistMode::Target, _) => assisted(state, &stick, engine, Reference::Orbit, settings),
-        }
-    }
-}
-
-type ByHand = (With<Player>, With<Manual>);
-
-/// The player's commands become the ship's controls.
-fn apply_commands(
-    (player_commands, control, clock): (Res<PlayerCommands>, Res<ManualControl>, Res<Clock>),
-    targets: Targets,
-    mut avoiding: ResMut<Avoiding>,
-    mut ships: Query<(Entity, &ShipMotion, &mut Engine, &mut Controls, Option<&mut Trigger>), ByHand>,
-) {
-    avoiding.0 = false;
-    for (ship, motion, mut engine, mut controls, trigger) in &mut ships {
-        engine.max_rate = control.turn_rate / player_commands.pace;
-        let known = player_commands.needs_target().then(|| targets.known(ship, &motion.0, clock.time)).flatten();
-        let help = player_commands.command(&motion.0, &engine, known.map(|known| known.point.velocity()), &control.assist);
-        avoiding.0 = help.avoiding;
-        controls.0 = help.command;
-        if let Some(mut trigger) = trigger {
-            trigger.pulled = player_commands.fire;
         }
     }
 }

@@ -383,7 +383,7 @@ mod tests {
         let [x, turn, fov] = [camera.position.x, camera.attitude.x, camera.field_of_view].map(|x| toml::Value::Float(x).to_string());
         let wrong = [
             (String::new(), "damaged"),
-            (good[..good.len() / 2].to_owned(), "damaged"),
+            (good[..good.floor_char_boundary(good.len() / 2)].to_owned(), "damaged"),
             (with("snapshot = 1", "snapshot = 2"), "format 2"),
             (with("version = \"", "version = \"9"), "version 9"),
             (with("time = ", "colour = 1\ntime = "), "unknown field `colour`"),

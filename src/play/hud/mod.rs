@@ -22,8 +22,8 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
 use crate::scene::GameConfig;
 use crate::sim::bolts::HIT_RADIUS;
+use crate::sim::by_hand::Avoiding;
 use crate::sim::guidance::Brake;
-use crate::sim::player_commands::Avoiding;
 use crate::sim::replay::Playback;
 use crate::sim::{ActiveMission, Chase, ChaseRules, PlayerCommands, Progress};
 

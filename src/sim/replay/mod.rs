@@ -11,7 +11,8 @@ use bevy::prelude::*;
 use data_encoding::BASE64;
 use serde::{Deserialize, Serialize};
 
-use super::player_commands::{PlayerCommands, choose_pilot};
+use super::by_hand::choose_pilot;
+use super::player_commands::PlayerCommands;
 use super::run::{FlightReport, RunRequest, fly_to_end, state_hash};
 use super::{Clock, SimSet, app_of, board, outcome};
 use crate::game_files::{self, GameFile};
