@@ -1,6 +1,7 @@
 //! Tests of `src/sim/`.
 
 pub mod chase;
+mod guidance;
 mod history;
 mod missions;
 mod simulate;
