@@ -136,6 +136,7 @@ hud-against = brakes
 hud-fallen = here, if it fell freely
 hud-fallen-short = it, falling
 hud-aim = aim here, hits in { $time }
+hud-aim-short = aim
 hud-reach = catch { $reach }
 hud-range = RANGE
 hud-range-seen = RANGE, as seen

@@ -136,6 +136,7 @@ hud-against = 減速
 hud-fallen = 自由に落ちたらここ
 hud-fallen-short = 落下先
 hud-aim = ここをねらう、{ $time } で命中
+hud-aim-short = ねらい
 hud-reach = つかまえる { $reach }
 hud-range = 距離
 hud-range-seen = 見かけの距離

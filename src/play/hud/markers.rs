@@ -207,6 +207,11 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Taken, languag
     if let (Some(MarkerPosition::Edge(at, towards)), None) = (heading, moving) {
         board.arrow(at, towards, &language.say("hud-course"), OWN);
     }
+    for &(direction, _) in &panel.aims {
+        if let MarkerPosition::Edge(at, towards) = find(direction) {
+            board.arrow(at, towards, &language.say("hud-aim-short"), ALARM);
+        }
+    }
     if let (Some((MarkerPosition::Edge(at, towards), _)), true) = (second, panel.by_light) {
         board.arrow(at, towards, &language.say("hud-second-image"), SEEN);
     }
