@@ -9,17 +9,20 @@ use serde::{Deserialize, Serialize};
 
 use super::assist::{AssistMode, Stick};
 use super::bolts::Gun;
-use super::goals::{ActiveMission, Progress};
+use super::by_hand::Avoiding;
+use super::goals::{ActiveMission, Progress, catch_radius, needed};
+use super::guidance::{approach, guidance};
 use super::history::History;
 use super::pilot::rollout::Point;
-use super::player_commands::PlayerCommands;
+use super::player_commands::{ManualControl, PlayerCommands};
 use super::replay::{Replay, ReplayLog};
 use super::ship::{Engine, Fleet, Fuel, Player, Ship, ShipMotion};
 use super::sight::apparition;
 use super::simulate::SimulateError;
+use super::target::{Known, Targets};
 use super::{ChaseRules, Clock, app_of, outcome, step};
 use crate::scene::document::refusal::in_words;
-use crate::scene::mission::Difficulty;
+use crate::scene::mission::{Difficulty, GoalTask};
 use crate::scene::pilot_kind::PilotKind;
 use crate::scene::ship::Sees;
 use crate::scene::{GameConfig, Scene};
@@ -59,6 +62,14 @@ struct Observation {
     own: Own,
     others: Vec<Seen>,
     goal: Option<GoalSeen>,
+    /// Motion against the target, as the HUD shows it; null where nothing is known of one.
+    target: Option<TargetSeen>,
+    /// T at which the time is out, r_s/c.
+    time_limit: f64,
+    /// r_s/c of T in a second of a player's, by which a full turn is measured.
+    pace: f64,
+    /// The assist has taken the thrust to keep off the hole.
+    avoiding: bool,
     /// Present in the last line alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     outcome: Option<&'static str>,
@@ -78,6 +89,29 @@ struct Own {
     /// Largest proper acceleration, c²/r_s.
     thrust: f64,
     bolts: u32,
+    /// r_s/c until the gun is ready.
+    reload: f64,
+    /// The fastest turn, rad per own r_s/c.
+    turn_rate: f64,
+}
+
+/// Motion against the target.
+#[derive(Clone, Debug, Serialize)]
+struct TargetSeen {
+    /// Where it is if it has fallen freely since it was known, r_s, and how old that is, r_s/c.
+    position: DVec3,
+    age: f64,
+    /// Distance, r_s; how fast it shrinks and the speed across, c.
+    range: f64,
+    closing: f64,
+    sideways: f64,
+    /// The way of braking, r_s, and the sign: "free", "soon", "now".
+    stopping: f64,
+    brake: &'static str,
+    /// How near both pass if they coast, r_s, and in which time, r_s/c; null if they part.
+    pass: Option<[f64; 2]>,
+    /// Within this it is caught, r_s; null where the goal is another.
+    reach: Option<f64>,
 }
 
 /// Another ship, as far as is known of it.
@@ -90,6 +124,8 @@ struct Seen {
     velocity: DVec3,
     /// Where its first and its second image are, on body axes; null where none is.
     images: [Option<DVec3>; 2],
+    /// How old these are, r_s/c.
+    image_ages: [Option<f64>; 2],
 }
 
 /// What is to be done now.
@@ -102,6 +138,10 @@ struct GoalSeen {
     done: f64,
     /// Middle of the next gate, r_s.
     gate: Option<DVec3>,
+    /// Radii between which it is to be done, r_s; null where it names none.
+    radius: Option<[f64; 2]>,
+    /// How much of it is all, in its unit: of a hold r_s/c.
+    needs: f64,
 }
 
 /// The player's commands, a line of JSON. What is left out is at rest.
@@ -114,10 +154,27 @@ struct Action {
     turn: [f64; 3],
     fire: bool,
     look: bool,
-    assist: bool,
+    assist: Assist,
+    /// Take away all motion against the target.
+    #[serde(rename = "match")]
+    matching: bool,
     /// For so long, r_s/c of T; 0.25 if absent.
     #[serde(rename = "for")]
     span: Option<f64>,
+}
+
+/// true and false, or what the assist holds to.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(untagged, expecting = "assist must be true, false, \"orbit\", \"target\" or \"off\"")]
+enum Assist {
+    On(bool),
+    To(AssistMode),
+}
+
+impl Default for Assist {
+    fn default() -> Assist {
+        Assist::On(false)
+    }
 }
 
 impl Action {
@@ -133,13 +190,13 @@ impl Action {
             return Err(format!("for: {span} must be above 0 and at most {LONGEST} r_s/c"));
         }
         let stick = Stick { thrust: self.thrust.into(), turn: self.turn.into() };
+        let assist = match self.assist {
+            Assist::On(true) => AssistMode::Orbit,
+            Assist::On(false) => AssistMode::Off,
+            Assist::To(mode) => mode,
+        };
         Ok((
-            PlayerCommands {
-                fire: self.fire,
-                looking: self.look,
-                assist: if self.assist { AssistMode::Orbit } else { AssistMode::Off },
-                ..PlayerCommands::holding(&stick)
-            },
+            PlayerCommands { fire: self.fire, looking: self.look, assist, matching: self.matching, ..PlayerCommands::holding(&stick) },
             span,
         ))
     }
@@ -208,9 +265,10 @@ fn said(error: &serde_json::Error) -> String {
     format!("column {}: {}", error.column(), brief(&in_words(without_place)))
 }
 
-fn observe(world: &World, own: Entity, sees: Sees, outcome: Option<&'static str>) -> Observation {
-    let clock = world.resource::<Clock>();
+fn observe(world: &mut World, own: Entity, sees: Sees, outcome: Option<&'static str>) -> Observation {
     let state = world.get::<ShipMotion>(own).map(|motion| motion.0).unwrap_or(ShipState::new(DVec3::X, DVec3::ZERO));
+    let target = target_seen(world, own, &state);
+    let (clock, pace) = (world.resource::<Clock>(), world.resource::<PlayerCommands>().pace);
     let fuel = world.get::<Fuel>(own).map(|fuel| fuel.left).filter(|fuel| fuel.is_finite());
     let others = world.resource::<Fleet>().0.iter().filter(|&&ship| ship != own);
     Observation {
@@ -223,7 +281,13 @@ fn observe(world: &World, own: Entity, sees: Sees, outcome: Option<&'static str>
             fuel,
             thrust: world.get::<Engine>(own).map_or(0.0, |engine| engine.max_thrust),
             bolts: world.get::<Gun>(own).map_or(0, |gun| gun.left),
+            reload: world.get::<Gun>(own).map_or(0.0, |gun| (gun.ready - clock.time).max(0.0)),
+            turn_rate: world.resource::<ManualControl>().turn_rate / pace,
         },
+        target,
+        time_limit: world.resource::<ChaseRules>().0.time_limit,
+        pace,
+        avoiding: world.get_resource::<Avoiding>().is_some_and(|avoiding| avoiding.0),
         others: others.filter_map(|&ship| see(world, &state, ship, sees)).collect(),
         goal: goal(world),
         outcome,
@@ -243,7 +307,39 @@ fn see(world: &World, own: &ShipState, ship: Entity, sees: Sees) -> Option<Seen>
     };
     let sample = history.at(now - age);
     let velocity = Point { x: sample.position, p: sample.momentum }.velocity();
-    Some(Seen { name, age, position: sample.position, velocity, images: images.map(|image| image.map(|image| image.direction)) })
+    Some(Seen {
+        name,
+        age,
+        position: sample.position,
+        velocity,
+        images: images.map(|image| image.map(|image| image.direction)),
+        image_ages: images.map(|image| image.map(|image| image.age)),
+    })
+}
+
+/// Motion against what the present goal is about.
+fn target_seen(world: &mut World, own: Entity, state: &ShipState) -> Option<TargetSeen> {
+    let time = world.resource::<Clock>().time;
+    let known = world.run_system_cached_with(known_target, (own, *state, time)).ok().flatten()?;
+    let reach = catch_radius(world.get_resource::<ActiveMission>(), world.get_resource::<Progress>(), world.resource::<ChaseRules>());
+    let thrust = world.get::<Engine>(own)?.max_thrust;
+    let point = Point::from(state);
+    let guide = guidance(&point, &known.point, thrust, reach.unwrap_or(0.0));
+    Some(TargetSeen {
+        position: known.point.x,
+        age: known.age,
+        range: guide.apart.length(),
+        closing: guide.closing(),
+        sideways: guide.sideways(),
+        stopping: guide.stopping,
+        brake: ["free", "soon", "now"][guide.brake as usize],
+        pass: approach(&point, &known.point).map(|near| [near.distance, near.ahead]),
+        reach,
+    })
+}
+
+fn known_target(In((own, state, time)): In<(Entity, ShipState, f64)>, targets: Targets) -> Option<Known> {
+    targets.known(own, &state, time)
 }
 
 fn goal(world: &World) -> Option<GoalSeen> {
@@ -255,6 +351,13 @@ fn goal(world: &World) -> Option<GoalSeen> {
         of: mission.goals.len(),
         done: progress.share(mission, world.resource::<ChaseRules>()),
         gate: mission.gates.get(progress.gates).map(|gate| gate.position),
+        radius: match goal.task {
+            GoalTask::Reach { least, most, .. } | GoalTask::Whirl { least, most, .. } | GoalTask::Survive { least, most, .. } => {
+                Some([least, most])
+            }
+            _ => None,
+        },
+        needs: needed(&goal.task, mission, world.resource::<ChaseRules>()),
     })
 }
 
@@ -289,7 +392,18 @@ mod tests {
         assert!((0.05..=0.06).contains(&spent), "{spent}");
         assert_eq!(lines[0]["others"][0]["name"], "freighter");
         assert_eq!(lines[0]["goal"]["of"], 1);
+        let target = &lines[0]["target"];
+        assert!(target["brake"] == "free" && target["range"].as_f64().is_some_and(|range| range > 3.0), "{target}");
+        assert_eq!([&target["reach"], &lines[0]["goal"]["needs"], &lines[0]["time_limit"]], [0.7, 3.0, 270.0]);
         assert_eq!(flown("", 5.0).expect("a flight").len(), 1, "nothing more is asked for");
+    }
+
+    #[test]
+    fn the_assist_matches_the_target() {
+        let speed = |line: &serde_json::Value| ["closing", "sideways"].map(|key| line["target"][key].as_f64().expect("a number").abs());
+        let lines = flown("{}\n{\"assist\":\"target\",\"match\":true,\"for\":8}\n", 9.0).expect("a flight");
+        let [before, after] = [&lines[0], &lines[2]].map(|line| speed(line).into_iter().fold(0.0, f64::max));
+        assert!(after < 0.5 * before, "{before} {after}");
     }
 
     #[test]
@@ -307,6 +421,7 @@ mod tests {
             ("{}\n{\"thrust\":[2,0,0]}\n", ["line 2", "from -1 to 1"]),
             ("{\"burn\":1}\n", ["line 1", "burn"]),
             ("{\"for\":0}\n", ["line 1", "above 0"]),
+            ("{\"assist\":\"hole\"}\n", ["line 1", "\"target\""]),
             ("nonsense\n", ["line 1", "an object"]),
             ("[]\n", ["line 1", "an object"]),
         ] {

@@ -14,7 +14,8 @@ use super::pilot::rollout::{Point, advance};
 use super::ship::Engine;
 
 /// What the flight assist holds to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum AssistMode {
     /// No help: free flight.
     #[default]
