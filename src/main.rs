@@ -164,7 +164,7 @@ struct SimulateArgs {
     /// Of a mission: easy, normal or hard.
     #[arg(long, value_name = "LEVEL", default_value_t)]
     difficulty: Difficulty,
-    /// Who flies the player's ship: naive, apprentice, expert, or hands, which throw it about.
+    /// Who flies the player's ship: naive, ignoring, person, practised, apprentice, expert, or hands, which throw it about.
     #[arg(long, value_name = "NAME", default_value_t)]
     pilot: PilotKind,
     /// Another program flies: a line of JSON with what is seen goes to standard output, a line with what to do comes from standard input.

@@ -75,7 +75,7 @@ pub struct PlayArgs {
     /// The autopilot flies the player's ship.
     #[arg(long)]
     pub autopilot: bool,
-    /// Who flies the player's ship instead: naive, apprentice, expert, or hands, which throw it about.
+    /// Who flies the player's ship instead: naive, ignoring, person, practised, apprentice, expert, or hands, which throw it about.
     #[arg(long, value_name = "NAME", conflicts_with_all = ["autopilot", "replay"])]
     pub pilot: Option<PilotKind>,
     /// Renders the demonstration flight to PNG files, without a window.

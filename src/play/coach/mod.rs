@@ -61,6 +61,9 @@ const DRIFT: (f64, f64) = (0.12, 8.0);
 /// T between two looks at whether a flight without fuel can still be won, in r_s/c.
 const LOOK: f64 = 2.0;
 
+/// How far ahead it is looked, in r_s/c: a time limit may be a thousand million.
+const FARTHEST: f64 = 400.0;
+
 /// What the coach has said.
 #[derive(Resource, Clone, Debug, Default)]
 struct Coach {
@@ -145,7 +148,7 @@ fn is_hopeless(now: &Now, panel: &Panel, coach: &mut Coach) -> bool {
         return coach.hopeless;
     }
     coach.look = time + LOOK;
-    let left = now.rules.0.time_limit - read.far_time;
+    let left = (now.rules.0.time_limit - read.far_time).min(FARTHEST);
     let (Some((own, ..)), Some((_, target))) = (now.own(), now.target()) else { return false };
     let [own, target] = [own, target].map(|history| Point::from(&state_of(&history.at(time))));
     !meets(&own, &target, left, reach)

@@ -221,7 +221,7 @@ config! {
     /// Flight assistance.
     assist: Assist {
         enabled: bool = true, Switch, "", "damps drift and turning; off is pure free flight";
-        reference: String = "orbit", Choice(&["orbit", "target"]), "", "against what drift is damped: the circular orbit, or the target's motion";
+        reference: String = "orbit", Choice(&["orbit", "target"]), "", "what drift is damped against";
         damping_time: f64 = 3.0, number(0.1, 100.0), "r_s/c", "time in which unwanted drift fades";
         avoid_hole: bool = true, Switch, "", "pushes away from orbits that end in the hole";
         avoid_radius: f64 = 2.0, number(1.05, 50.0), "r_s", "closest approach the assistance allows";

@@ -162,7 +162,8 @@ pub fn fly_as_person(
         let Ok(((pilot, mut person), (mut controls, mut engine), motion, (gun, trigger))) = ships.get_mut(entity) else { continue };
         engine.max_rate = control.turn_rate / commands.pace;
         let state = &motion.0;
-        let target = targets.known(entity, state, clock.time);
+        // A solution of the light's way where nobody tells: only when it is asked for.
+        let known = || targets.known(entity, state, clock.time);
         // Aiming is fine work: the game is slowed for it.
         let slowed = if matches!(pilot.order, PilotOrder::Hit(_)) && person.skill.heeds { SLOWED } else { 1.0 };
         if clock.time >= person.next {
@@ -172,7 +173,7 @@ pub fn fly_as_person(
                 Some(Target::Gate(_, radius)) => radius,
                 _ => rules.0.capture_radius,
             };
-            let view = View { state, order: pilot.order, engine: &engine, target, image, reach, bolts };
+            let view = View { state, order: pilot.order, engine: &engine, target: known(), image, reach, bolts };
             let action = person.decide(&view, clock.time);
             person.decided = Some((clock.time + slowed * REACTION, action));
             person.next = clock.time + slowed * person.pause();
@@ -189,8 +190,8 @@ pub fn fly_as_person(
         let turn = ahead.map_or(DVec3::ZERO, |ahead| (turn_nose(ahead, full) + ahead.cross(along)) / full);
         // As coarse as a player's.
         let held = PlayerCommands { assist, matching, ..PlayerCommands::holding(&Stick { thrust, turn }) };
-        let known = target.filter(|_| held.needs_target()).map(|known| known.point.velocity());
-        controls.0 = held.command(state, &engine, known, &control.assist).command;
+        let velocity = held.needs_target().then(known).flatten().map(|known| known.point.velocity());
+        controls.0 = held.command(state, &engine, velocity, &control.assist).command;
         if let Some(mut trigger) = trigger {
             trigger.pulled = fires;
         }
