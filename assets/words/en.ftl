@@ -163,6 +163,7 @@ hud-time-left = TIME LEFT
 hud-goal = GOAL
 hud-goal-of = GOAL { $number } OF { $count }
 hud-hold-needs = within { $reach } r_s, for { $span } r_s/c
+hud-match-needs = within { $reach } r_s, { $speed } c against it at most, for { $span } r_s/c
 hud-hold = HOLD { $numbers } r_s/c
 hud-bolts = { $left } bolts
 hud-bolt-hits = a bolt now: HIT, if the target coasts
@@ -206,6 +207,9 @@ lesson-fell = You fell too deep. Below r = 3 only speed along the orbit holds yo
 lesson-passed = You passed it { $times } times at { $speed } c or more: brake from { $from } r_s on.
 lesson-dry = Your tanks were empty at T = { $time }: fall more, thrust less.
 lesson-far = You never came nearer than { $distance } r_s: thrust to where it is now, and go down to catch up.
+map-own = your way
+map-target = its way
+map-circle = r = 3
 
 ## What am I seeing?
 seeing-hint = Switch off what light does, and see what each does.

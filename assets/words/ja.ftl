@@ -163,6 +163,7 @@ hud-time-left = 残り時間
 hud-goal = 目標
 hud-goal-of = 目標 { $number } / { $count }
 hud-hold-needs = { $reach } r_s 以内に { $span } r_s/c
+hud-match-needs = { $reach } r_s 以内、標的に対して { $speed } c 以下で { $span } r_s/c
 hud-hold = 保持 { $numbers } r_s/c
 hud-bolts = 弾 { $left }
 hud-bolt-hits = 今撃てば命中（標的が噴射しなければ）
@@ -206,6 +207,9 @@ lesson-fell = 深く落ちすぎました。r = 3 より内側では軌道に沿
 lesson-passed = { $speed } c 以上で { $times } 回通り過ぎました。{ $from } r_s 手前から減速。
 lesson-dry = T = { $time } で燃料がなくなりました。もっと落下にまかせ、噴射を減らす。
 lesson-far = { $distance } r_s より近づけませんでした。今いる場所へ噴射し、追いつくには下へ。
+map-own = あなたの道すじ
+map-target = 標的の道すじ
+map-circle = r = 3
 
 ## 何が見えているの？
 seeing-hint = 光のはたらきを一つずつ切って、違いを見てみましょう。

@@ -3,7 +3,7 @@
 mission-01-training-title = 訓練
 mission-01-training-idea = 見えているのは過去の姿です。そして軌道とは、落ち続けることです。
 mission-01-training-brief =
-    短い練習が六つあります。どれも時間はたっぷりあります。追ってくるものはいません。「やさしい」では、ドローンも眠っています。
+    短い練習が七つあります。どれも時間はたっぷりあります。追ってくるものはいません。「やさしい」では、ドローンも眠っています。
     あなたの船は、ブラックホールのまわりを落ち続けています。それが軌道です。エンジンは、その落ち方を変えるだけです。
 mission-01-training-goal-1 = 噴射する
 mission-01-training-goal-1-hint = [thrust_forward] を押し続けると、エンジンが船を前へ押します。[thrust_back] は後ろへ、[thrust_left] と [thrust_right] は横へ押します。[boost] で全力噴射です。
@@ -13,10 +13,12 @@ mission-01-training-goal-3 = 落ちる：キーから手をはなす
 mission-01-training-goal-3-hint = マウスも、すべてから手をはなしてください。アシストはまだ少し噴射して、落下を円軌道に変えます。
 mission-01-training-goal-4 = ドローンを見る
 mission-01-training-goal-4-hint = [look_at_target] を押し続けるか、船首を青い印へ向けます。その光は、少し前にドローンを出たものです。どれだけ前かは、印に書いてあります。
-mission-01-training-goal-5 = r = 7 まで下りる
-mission-01-training-goal-5-hint = ブラックホール（赤い矢印）のほうを向いて、[thrust_forward] を押し続けます。r は右上に出ています。手をはなすと、アシストが落下を円軌道に変えます。前より速い円軌道です。
-mission-01-training-goal-6 = ドローンをつかまえる：1.5 r_s 以内にとどまる
-mission-01-training-goal-6-hint = 「現在」の輪へ飛びましょう。[toggle_assist] を軽く押して「アシスト：標的」にします。「今すぐ減速」と出たら、押し続けます。[slower] で、すべてがゆっくりになります。
+mission-01-training-goal-5 = ドローンのそばまで飛んで、止まる
+mission-01-training-goal-5-hint = 船首を「現在」の輪に向けて、[thrust_forward] を押し続けます。「今すぐ減速」と出たら、[toggle_assist] を押し続けます。ドローンに対する動きが消えます。
+mission-01-training-goal-6 = ドローンと同じ動きをする
+mission-01-training-goal-6-hint = ドローンに対する動きの矢印が消えるまで、[toggle_assist] を押し続けます。3 r_s より遠いときは、「現在」の輪のほうへ少し押しましょう。
+mission-01-training-goal-7 = ドローンをつかまえる：1.5 r_s 以内にとどまる
+mission-01-training-goal-7-hint = [toggle_assist] を軽く押して「アシスト：標的」にし、「現在」の輪のほうへ少しだけ押します。「今すぐ減速」と出たら、[toggle_assist] を押し続けます。[slower] で、すべてがゆっくりになります。
 
 mission-02-first-pursuit-title = 最初の追跡
 mission-02-first-pursuit-idea = 低い軌道ほど速く回ります。追いつきたければ、下りましょう。

@@ -2,7 +2,8 @@
 
 #import lensrunner::geometry::clip::clip_position
 #import lensrunner::gpu::bindings::frame
-#import lensrunner::gpu::types::{FLAG_INSIDE, SeenVertex}
+#import lensrunner::gpu::types::{FLAG_INSIDE, INSTANCE_OWN, SeenVertex}
+#import lensrunner::instances::instance::instance_at
 #import lensrunner::post_process::coverage::coverage_sign
 #import lensrunner::shading::bindings::seen
 #import lensrunner::shading::shade::{shaded, Surface, surface_of, texture_place}
@@ -36,6 +37,18 @@ fn opaque_fragment(in: Surface) -> @location(0) vec4<f32> {
         discard;
     }
     return vec4<f32>(shaded(in), 1.0);
+}
+
+/// The player's own ship alone, as a mask: all else is drawn as a point off the screen.
+@vertex
+fn own_vertex(in: SeenInput) -> @builtin(position) vec4<f32> {
+    let is_own = (instance_at(in.instance).flags & INSTANCE_OWN) != 0u;
+    return select(vec4<f32>(2.0, 2.0, 2.0, 1.0), clip_position(in.apparent), is_own);
+}
+
+@fragment
+fn own_fragment() -> @location(0) vec4<f32> {
+    return vec4<f32>(1.0);
 }
 
 struct Layers {

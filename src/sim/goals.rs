@@ -8,6 +8,7 @@ use glam::{DQuat, DVec3};
 
 use super::clock::Clock;
 use super::history::{History, rotation};
+use super::pilot::rollout::Point;
 use super::player_commands::PlayerCommands;
 use super::rules::{Chase, ChaseRules, Outcome, judge_chase};
 use super::ship::{Controls, CrossedHorizon, Ended, Engine, Fleet, Fuel, Pilot, PilotOrder, ShipMotion};
@@ -66,7 +67,7 @@ pub fn needed(task: &GoalTask, mission: &Mission, rules: &ChaseRules) -> f64 {
     match *task {
         GoalTask::Burn { amount } => amount,
         GoalTask::Turn { angle } => angle,
-        GoalTask::Coast { span } | GoalTask::Look { span, .. } | GoalTask::Reach { span, .. } => span,
+        GoalTask::Coast { span } | GoalTask::Look { span, .. } | GoalTask::Reach { span, .. } | GoalTask::Match { span, .. } => span,
         GoalTask::Hold { span, .. } => {
             if span.is_nan() {
                 rules.0.hold_time
@@ -81,11 +82,12 @@ pub fn needed(task: &GoalTask, mission: &Mission, rules: &ChaseRules) -> f64 {
     }
 }
 
-/// How near the target must be to be caught, in r_s; None where the present goal of a mission is another.
+/// How near the target must be to be caught or flown with, in r_s; None where the present goal of a mission is another.
 pub fn catch_radius(mission: Option<&ActiveMission>, progress: Option<&Progress>, rules: &ChaseRules) -> Option<f64> {
     let Some((mission, progress)) = mission.zip(progress) else { return Some(rules.0.capture_radius) };
     match mission.0.goals.get(progress.goal)?.task {
         GoalTask::Hold { distance, .. } => Some(distance.unwrap_or(rules.0.capture_radius)),
+        GoalTask::Match { distance, .. } => Some(distance),
         _ => None,
     }
 }
@@ -103,7 +105,7 @@ fn order(mission: &Mission, progress: &Progress, fleet: &Fleet) -> PilotOrder {
         GoalTask::Turn { .. } => Some(PilotOrder::Turn),
         GoalTask::Coast { .. } => Some(PilotOrder::Rest),
         GoalTask::Look { ship: index, .. } => ship(index).map(PilotOrder::Face),
-        GoalTask::Hold { ship: index, .. } => ship(index).map(PilotOrder::Catch),
+        GoalTask::Hold { ship: index, .. } | GoalTask::Match { ship: index, .. } => ship(index).map(PilotOrder::Catch),
         GoalTask::Hit { ship: index, .. } => ship(index).map(PilotOrder::Hit),
         GoalTask::Reach { least, most, .. } | GoalTask::Whirl { least, most, .. } => Some(PilotOrder::Keep(0.5 * (least + most))),
         GoalTask::Survive { .. } => pursuer.map(PilotOrder::Escape),
@@ -253,6 +255,12 @@ impl Step<'_, '_, '_, '_> {
             GoalTask::Hold { ship, distance, .. } => {
                 let distance = distance.unwrap_or(self.rules.0.capture_radius);
                 lasts(self.state(ship).is_some_and(|there| there.position.distance(own.position) <= distance))
+            }
+            GoalTask::Match { ship, distance, speed, .. } => {
+                let velocity = |state: &ShipState| Point::from(state).velocity();
+                lasts(self.state(ship).is_some_and(|there| {
+                    there.position.distance(own.position) <= distance && (velocity(&there) - velocity(&own)).length() <= speed
+                }))
             }
             GoalTask::Hit { ship, .. } => {
                 let hits = self.fleet.0.get(ship).and_then(|&entity| self.ships.get(entity).ok()).and_then(|seen| seen.5);

@@ -106,7 +106,7 @@ fn time(request: &BodiesRequest, config: &GameConfig, surroundings: &Surrounding
     let scene = kind.scene(bodies).map_err(|error| error.to_string())?;
     let moment = Moment::new(&scene, config, 0.0, 0);
     let BodiesRequest { size, frames, .. } = *request;
-    let bench = Bench { gpu, surroundings, config, size, frames, rationed: false };
+    let bench = Bench { gpu, surroundings, config, size, frames, rationed: false, fastest: false };
     bench.time(kind.name(), &scene, moment).map_err(|error| error.to_string())
 }
 

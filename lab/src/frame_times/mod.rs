@@ -38,8 +38,8 @@ pub fn run(request: &FrameTimesRequest) -> Result<Vec<PathBuf>, ChartError> {
         Ok((scene, moment))
     };
     let scenes: Vec<_> = request.scenes.iter().map(played).collect::<Result<_, _>>()?;
-    let FrameTimesRequest { size, frames, rationed, .. } = *request;
-    let bench = Bench { gpu: Gpu::headless()?, surroundings: &surroundings(), config, size, frames, rationed };
+    let FrameTimesRequest { size, frames, rationed, fastest, .. } = *request;
+    let bench = Bench { gpu: Gpu::headless()?, surroundings: &surroundings(), config, size, frames, rationed, fastest };
     let [width, height] = size;
     say(format_args!("{}, {width}x{height}, {frames} frames", bench.gpu.adapter.name));
     let mut sheet = Sheet::measured(&COLUMNS, &bench.gpu.adapter_name());

@@ -34,6 +34,9 @@ pub struct FrameTimesRequest {
     /// Hold the aurora to its share of a frame, as in the window.
     #[arg(long)]
     pub rationed: bool,
+    /// Draw on the fastest rung of automatic quality.
+    #[arg(long)]
+    pub fastest: bool,
     /// Frames of the scene `chase`, flown by its pilots from start to end. 0 for none.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u32>(0, 100_000))]
     pub flight: u32,

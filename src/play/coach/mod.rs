@@ -19,7 +19,6 @@ use crate::play::picture::stage_loading::CurrentStage;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::words;
-use crate::sim::Clock;
 use crate::sim::assist::AssistMode;
 use crate::sim::guidance::{Brake, Guidance, meets};
 use crate::sim::pilot::rollout::Point;
@@ -89,13 +88,17 @@ impl Plugin for CoachPlugin {
 }
 
 /// Notes what happens; a flight that begins anew has a new review.
-fn review_flight(clock: Res<Clock>, panel: Res<Panel>, mut review: ResMut<Review>, mut coach: ResMut<Coach>) {
-    if begins_anew(&mut coach.before, clock.time) {
+fn review_flight(now: Now, panel: Res<Panel>, mut review: ResMut<Review>, mut coach: ResMut<Coach>) {
+    if begins_anew(&mut coach.before, now.clock()) {
         *review = Review::default();
         (coach.now, coach.look, coach.hopeless) = (Default::default(), 0.0, false);
     }
     let fuel = panel.instruments.map_or(1.0, |read| read.fuel_left);
-    review.note(clock.time, panel.guidance.zip(panel.reach), fuel);
+    let decided = now.chase.as_ref().is_some_and(|chase| chase.outcome.is_some());
+    if let Some((own, ..)) = now.own().filter(|_| !decided) {
+        let time = now.time();
+        review.note(time, own.at(time).position, panel.guidance.zip(panel.reach), fuel);
+    }
 }
 
 /// Says the most urgent thing that was not said in this flight, where nothing else is said.

@@ -1,6 +1,7 @@
 //! What a flight was like, as far as it says why it was lost: passes of the target, an empty tank, the lowest place.
 
 use bevy::prelude::Resource;
+use glam::DVec3;
 
 use crate::sim::Outcome;
 use crate::sim::guidance::Guidance;
@@ -9,6 +10,21 @@ use crate::sim::guidance::Guidance;
 const CLOSE: f64 = 4.0;
 /// A pass faster than this, in c, is too fast to hold.
 const FAST: f64 = 0.2;
+/// T between two places of a way, in r_s/c.
+const SPACING: f64 = 0.25;
+/// Places of a way that are kept: of a longer flight every other one, so often.
+const MOST: usize = 4096;
+
+/// A moment of a flight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mark {
+    /// T, in r_s/c.
+    pub time: f64,
+    /// Where the ship was, in r_s.
+    pub own: DVec3,
+    /// Where the target was as far as was known, in r_s.
+    pub target: Option<DVec3>,
+}
 
 /// What is noted of a flight.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
@@ -17,8 +33,16 @@ pub struct Review {
     passes: Vec<f64>,
     /// The least distance from the target, in r_s; None before it was known.
     nearest: Option<f64>,
-    /// T at which the tanks were empty, in r_s/c.
-    dry: Option<f64>,
+    /// When the tanks were empty.
+    dry: Option<Mark>,
+    /// The last close pass that was too fast.
+    fast: Option<Mark>,
+    /// Where both were nearest.
+    near: Option<Mark>,
+    /// The ways of both.
+    ways: Vec<Mark>,
+    /// T between two places of them, in r_s/c; 0 for the first.
+    spacing: f64,
     /// Whether the distance shrank in the frame before.
     closing: bool,
     /// Where the brake sign would have been, at the speed of the fastest pass, in r_s.
@@ -46,26 +70,66 @@ pub enum Lesson {
 }
 
 impl Review {
-    /// Notes a moment at T = `time`: motion against the target that is caught within `reach` (r_s), and the Δv left (c).
-    pub fn note(&mut self, time: f64, target: Option<(Guidance, f64)>, fuel: f64) {
+    /// Notes a moment at T = `time`: the ship's place (r_s), motion against the target that is caught within `reach` (r_s), and the Δv left
+    /// (c).
+    pub fn note(&mut self, time: f64, own: DVec3, target: Option<(Guidance, f64)>, fuel: f64) {
+        let mark = Mark { time, own, target: target.map(|(guide, _)| own + guide.apart) };
+        self.keep(mark);
         if fuel <= 0.0 && self.dry.is_none() {
-            self.dry = Some(time);
+            self.dry = Some(mark);
         }
         let Some((guide, reach)) = target else {
             self.closing = false;
             return;
         };
         let range = guide.apart.length();
-        self.nearest = Some(self.nearest.map_or(range, |nearest| nearest.min(range)));
+        if self.nearest.is_none_or(|nearest| range < nearest) {
+            (self.nearest, self.near) = (Some(range), Some(mark));
+        }
         let closing = guide.closing() > 0.0;
         if self.closing && !closing && range < CLOSE * reach {
             let speed = guide.velocity.length();
             self.passes.push(speed);
+            if speed > FAST {
+                self.fast = Some(mark);
+            }
             if speed >= self.passes.iter().fold(0.0, |most, speed| speed.max(most)) {
                 self.brake_from = guide.stopping + reach;
             }
         }
         self.closing = closing;
+    }
+
+    /// Adds a place to the ways.
+    fn keep(&mut self, mark: Mark) {
+        if self.ways.last().is_some_and(|last| mark.time < last.time + self.spacing) {
+            return;
+        }
+        if self.ways.len() >= MOST {
+            let mut number = 0;
+            self.ways.retain(|_| {
+                number += 1;
+                number % 2 == 1
+            });
+            self.spacing *= 2.0;
+        }
+        self.spacing = self.spacing.max(SPACING);
+        self.ways.push(mark);
+    }
+
+    /// The ways of both.
+    pub fn ways(&self) -> &[Mark] {
+        &self.ways
+    }
+
+    /// The moment that a lesson speaks of.
+    pub fn moment(&self, lesson: Lesson) -> Option<Mark> {
+        match lesson {
+            Lesson::Fell => self.ways.last().copied(),
+            Lesson::Passed { .. } => self.fast,
+            Lesson::Dry(_) => self.dry,
+            Lesson::Far(_) => self.near,
+        }
     }
 
     /// Why the flight was lost that ended so; None where it was won, or the outcome says all.
@@ -77,7 +141,7 @@ impl Review {
                 let speed = fast.iter().copied().fold(f64::INFINITY, f64::min);
                 Some(Lesson::Passed { times: fast.len(), speed, from: self.brake_from })
             }
-            Outcome::TimeOut | Outcome::QuarryLost => self.dry.map(Lesson::Dry).or(self.nearest.map(Lesson::Far)),
+            Outcome::TimeOut | Outcome::QuarryLost => self.dry.map(|dry| Lesson::Dry(dry.time)).or(self.nearest.map(Lesson::Far)),
             Outcome::Caught | Outcome::Done | Outcome::Taken | Outcome::Strayed => None,
         }
     }
@@ -88,7 +152,6 @@ mod tests {
     use super::*;
     use crate::sim::guidance::guidance;
     use crate::sim::pilot::rollout::Point;
-    use glam::DVec3;
 
     /// Far out, passing a target at rest among the rain at this speed (c) and distance (r_s).
     fn passing(review: &mut Review, speed: f64, distance: f64) {
@@ -96,7 +159,7 @@ mod tests {
             let x = DVec3::new(1e6, distance, f64::from(k) * 0.2);
             let own = Point { x, p: DVec3::Z * speed / (1.0 - speed * speed).sqrt() };
             let target = Point { x: DVec3::X * 1e6, p: DVec3::ZERO };
-            review.note(f64::from(k), Some((guidance(&own, &target, 0.06, 0.5), 0.5)), 1.0);
+            review.note(f64::from(k), x, Some((guidance(&own, &target, 0.06, 0.5), 0.5)), 1.0);
         }
     }
 
@@ -110,6 +173,9 @@ mod tests {
         let Some(Lesson::Passed { times, speed, from }) = review.lesson(Outcome::TimeOut) else { panic!("{review:?}") };
         // (γ − 1)/a at 0.4 c and 0.06 c²/r_s is 1.52.
         assert!(times == 2 && (speed - 0.3).abs() < 1e-3 && (from - 2.02).abs() < 0.02, "{times} {speed} {from}");
+        // That at 0.4 c, the last that was close.
+        let moment = review.moment(Lesson::Passed { times, speed, from }).map(|mark| (mark.time, mark.own.y));
+        assert!(moment.is_some_and(|(time, y)| y == 1.0 && (0.0..=1.0).contains(&time)), "{moment:?}");
         assert_eq!(review.lesson(Outcome::Done), None);
         assert_eq!(review.lesson(Outcome::ShipLost), Some(Lesson::Fell));
     }
@@ -119,8 +185,20 @@ mod tests {
         let mut review = Review::default();
         passing(&mut review, 0.3, 5.0);
         assert_eq!(review.lesson(Outcome::TimeOut), Some(Lesson::Far(5.0)));
-        review.note(70.0, None, 0.0);
-        review.note(80.0, None, 0.0);
+        review.note(70.0, DVec3::X, None, 0.0);
+        review.note(80.0, DVec3::Y, None, 0.0);
         assert_eq!(review.lesson(Outcome::TimeOut), Some(Lesson::Dry(70.0)));
+        assert_eq!(review.moment(Lesson::Dry(70.0)), Some(Mark { time: 70.0, own: DVec3::X, target: None }));
+    }
+
+    #[test]
+    fn ways_of_any_length_find_room() {
+        let mut review = Review::default();
+        for k in 0..40_000 {
+            review.note(f64::from(k), DVec3::X * f64::from(k), None, 1.0);
+        }
+        let ways = review.ways();
+        assert!((MOST / 2..=MOST).contains(&ways.len()), "{}", ways.len());
+        assert!(ways.windows(2).all(|pair| pair[0].time < pair[1].time) && ways[0].time == 0.0);
     }
 }

@@ -72,12 +72,23 @@ pub fn lay_out(painter: &Painter, rect: Rect, top: f32, goals: &Goals, slow: &mu
     Some(TextBox::lay_out(painter, at, Align2::CENTER_TOP, widest, &lines).over_bar(share as f32, OWN))
 }
 
-/// How near a ship must be held, and for how long, where that is the goal.
+/// How near a ship must be held or flown with, and for how long, where that is the goal.
 fn held_words(language: Language, mission: &Mission, progress: &Progress, rules: &ChaseRules) -> Option<String> {
     let task = &mission.goals.get(progress.goal)?.task;
-    let GoalTask::Hold { distance, .. } = task else { return None };
-    let [reach, span] = [distance.unwrap_or(rules.0.capture_radius), needed(task, mission, rules)].map(|value| format!("{value:.2}"));
-    Some(language.fill("hud-hold-needs", &[("reach", reach.as_str()), ("span", span.as_str())]))
+    let decimals = |value: f64| format!("{value:.2}");
+    let span = decimals(needed(task, mission, rules));
+    match *task {
+        GoalTask::Hold { distance, .. } => {
+            let reach = decimals(distance.unwrap_or(rules.0.capture_radius));
+            Some(language.fill("hud-hold-needs", &[("reach", reach.as_str()), ("span", span.as_str())]))
+        }
+        GoalTask::Match { distance, speed, .. } => {
+            let [reach, speed] = [distance, speed].map(decimals);
+            let all = [("reach", reach.as_str()), ("speed", speed.as_str()), ("span", span.as_str())];
+            Some(language.fill("hud-match-needs", &all))
+        }
+        _ => None,
+    }
 }
 
 /// From this share of the farthest allowed radius on the edge is near.
@@ -89,9 +100,9 @@ pub fn near_edge(mission: &Mission, progress: &Progress, radius: f64) -> bool {
     matches!(task, Some(GoalTask::Survive { most, .. }) if radius > EDGE * most)
 }
 
-/// Whether the present goal is a ship to be held, which is shown by a ring.
+/// Whether the present goal is a ship to be held or flown with, which is shown by a ring.
 pub fn is_held(mission: &Mission, progress: &Progress) -> bool {
-    mission.goals.get(progress.goal).is_some_and(|goal| matches!(goal.task, GoalTask::Hold { .. }))
+    mission.goals.get(progress.goal).is_some_and(|goal| matches!(goal.task, GoalTask::Hold { .. } | GoalTask::Match { .. }))
 }
 
 /// For how long a ship must be held, in r_s/c.

@@ -5,6 +5,7 @@
 
 pub mod change;
 pub mod entries;
+mod flight_map;
 pub mod keys;
 pub mod lists;
 pub mod manual;

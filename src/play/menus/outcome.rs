@@ -2,6 +2,7 @@
 
 use bevy_egui::egui::{Color32, RichText, Ui};
 
+use super::flight_map;
 use super::words::{stars, unit};
 use crate::play::coach::review::{Lesson, Review};
 use crate::play::hud::instruments::Scale;
@@ -21,8 +22,9 @@ pub(super) fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, pane
     let mut line = |words: &str, size: f32, colour| _ = ui.label(RichText::new(words).size(size).color(palette.shown(colour)));
     line(&language.say(&format!("outcome-{}", outcome.name())), 34.0, colour_of(outcome));
     line(&language.say(&format!("outcome-{}-why", outcome.name())), 15.0, TEXT);
-    if let Some(words) = review.lesson(outcome).filter(|_| flown.by_hand).map(|lesson| lesson_words(language, lesson)) {
-        line(&words, 15.0, TRUE);
+    let lesson = review.lesson(outcome).filter(|_| flown.by_hand);
+    if let Some(lesson) = lesson {
+        line(&lesson_words(language, lesson), 15.0, TRUE);
     }
     if let Some(key) = pilot(flown) {
         line(&language.say(key), 13.0, TRUE);
@@ -36,6 +38,9 @@ pub(super) fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, pane
     }
     if let Some(fuel) = panel.instruments.and_then(|read| read.fuel) {
         line(&say("result-fuel", &format!("{:.0} %", 100.0 * fuel)), 13.0, FAINT);
+    }
+    if let Some(moment) = lesson.and_then(|lesson| review.moment(lesson)) {
+        flight_map::show(ui, language, review.ways(), moment);
     }
 }
 

@@ -20,7 +20,9 @@ use place::Placing;
 use crate::lensing::methods::Method;
 use crate::render::Gpu;
 use crate::render::aurora::ground::GroundFrame;
-use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTexture, bind, buffer, layout, module, raster_of};
+use crate::render::gpu::layout::{
+    Growing, HDR_FORMAT, MASK_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTexture, bind, buffer, layout, module, raster_of,
+};
 use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::types::{self, Capacity, Counters, SeenVertex};
@@ -71,6 +73,8 @@ struct Draws {
     thin: wgpu::RenderPipeline,
     /// Thin images whose light crosses the disk's plane never, once, twice, three times.
     thin_across: [wgpu::RenderPipeline; 4],
+    /// A mask of the own ship.
+    own: wgpu::RenderPipeline,
 }
 
 /// What draws the layers of a picture.
@@ -88,7 +92,7 @@ fn draw_pipeline<'d>(
 ) -> impl Fn(&str, Raster) -> wgpu::RenderPipeline + use<'d> {
     let shader = module(device, "draw", Pass::Draw);
     move |label, stage| {
-        let buffers = if stage.vertex == "opaque_vertex" { &[seen_layout()] } else { &[thin_layout()] };
+        let buffers = if stage.vertex.starts_with("thin") { &[thin_layout()] } else { &[seen_layout()] };
         raster_of(device, label, &shader, stage, &[Some(frame_layout), None, Some(draw_layout)], buffers)
     }
 }
@@ -103,8 +107,10 @@ impl Draws {
         let thin = |vertex| pipeline(vertex, Raster { vertex, fragment: "thin_fragment", targets: &sums, depth: Some(false) });
         let picture = [(HDR_FORMAT, None)];
         let opaque = Raster { vertex: "opaque_vertex", fragment: "opaque_fragment", targets: &picture, depth: Some(true) };
+        let mask = [(MASK_FORMAT, None)];
         Draws {
             opaque: pipeline("opaque", opaque),
+            own: pipeline("own", Raster { vertex: "own_vertex", fragment: "own_fragment", targets: &mask, depth: None }),
             thin: thin("thin_vertex"),
             thin_across: ["thin_vertex_0", "thin_vertex_1", "thin_vertex_2", "thin_vertex_3"].map(thin),
         }
@@ -428,6 +434,11 @@ impl Geometry {
     /// Opaque triangles, with depth.
     pub fn draw_opaque(&self, pass: &mut wgpu::RenderPass) {
         self.draw_surfaces(pass, &self.draws.opaque);
+    }
+
+    /// The own ship's triangles, as a mask without depth.
+    pub fn draw_own(&self, pass: &mut wgpu::RenderPass) {
+        self.draw_surfaces(pass, &self.draws.own);
     }
 
     /// Thin triangles, summed.

@@ -373,6 +373,9 @@ pub const SIGNED_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
 /// The format of depth, reversed: 1 at the near distance, 0 at infinity.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
+/// The format of masks: 1 inside.
+pub const MASK_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+
 /// A render pipeline of triangles without vertex buffers.
 pub fn raster(
     device: &wgpu::Device,

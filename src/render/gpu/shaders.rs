@@ -98,6 +98,8 @@ passes! {
     Smooth: "post_process/smooth.wgsl",
     /// Enlarges a picture that was drawn smaller than the output.
     Upscale: "post_process/upscale.wgsl",
+    /// Sharpens the outline of the own ship in it.
+    OwnOutline: "post_process/own_outline.wgsl",
     /// Projects the places of the disk's arcs, and those that halving asks for.
     DiskVertices: "disk/arcs/vertices.wgsl",
     /// Decides how often arcs are halved.

@@ -62,6 +62,8 @@ pub struct Finish {
     pub blooms: bool,
     /// Outlines of bodies are smoothed.
     pub smooth: bool,
+    /// The player's own ship is in the picture.
+    pub has_own_ship: bool,
     /// The rise of the mean brightness is bound.
     pub steady: bool,
     /// Width of the picture as a share of what it will be enlarged to: the glow keeps its width there.

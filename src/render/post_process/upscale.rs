@@ -1,9 +1,11 @@
-//! A picture that was drawn smaller than the output, enlarged to it: `shaders/post_process/upscale.wgsl`. Stars are laid over it at full
-//! size, or they would be squares: `shaders/sky/stars_over.wgsl`.
+//! A picture that was drawn smaller than the output, enlarged to it: `shaders/post_process/upscale.wgsl`. Two things are as in a picture
+//! of the full size: the outline of the own ship (`own_outline.wgsl`), and stars, which are laid over it (`shaders/sky/stars_over.wgsl`).
 
+use wgpu::BindingResource::TextureView;
 use wgpu::ShaderStages;
 
-use crate::render::gpu::layout::{Raster, Slot, bind, layout, module, raster};
+use crate::render::geometry::Geometry;
+use crate::render::gpu::layout::{MASK_FORMAT, Raster, Slot, bind, layout, module, raster};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::{Targets, target};
 use crate::render::passes::{Recording, colour};
@@ -16,6 +18,9 @@ pub struct Upscale {
     layout: wgpu::BindGroupLayout,
     rows: wgpu::RenderPipeline,
     columns: wgpu::RenderPipeline,
+    outline_layout: wgpu::BindGroupLayout,
+    outline: wgpu::RenderPipeline,
+    sampler: wgpu::Sampler,
     stars_layout: wgpu::BindGroupLayout,
     stars: wgpu::RenderPipeline,
     format: wgpu::TextureFormat,
@@ -29,6 +34,9 @@ struct UpscaleTargets {
     drawn: wgpu::TextureView,
     wide: wgpu::TextureView,
     groups: [wgpu::BindGroup; 2],
+    /// Where the own ship is, in pixels of the output.
+    mask: wgpu::TextureView,
+    outline_group: wgpu::BindGroup,
     stars_group: wgpu::BindGroup,
 }
 
@@ -46,13 +54,23 @@ impl Upscale {
             let stage = Raster { vertex: "vertex", fragment, targets: &[(format, None)], depth: None };
             raster(device, label, &shader, stage, &[Some(frame_layout), None, Some(&layout)])
         };
+        let outline_layout = self::layout(device, "own outline", ShaderStages::FRAGMENT, &[Slot::Texture, Slot::Texture, Slot::Sampler]);
+        let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(format, None)], depth: None };
+        let shader = module(device, "own outline", Pass::OwnOutline);
+        let outline = raster(device, "own outline", &shader, stage, &[Some(frame_layout), None, Some(&outline_layout)]);
+        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("linear"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        });
         let stars_layout = self::layout(device, "stars over", ShaderStages::VERTEX_FRAGMENT, &[Slot::Numbers, Slot::Uniform]);
         let blend = onto(wgpu::BlendFactor::One, wgpu::BlendFactor::OneMinusSrcAlpha);
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(format, Some(blend))], depth: None };
         let groups = [Some(frame_layout), Some(&seen_layout(device)), Some(&stars_layout)];
         let stars = raster(device, "stars over", &module(device, "stars over", Pass::StarsOver), stage, &groups);
         let [rows, columns] = [pass("upscale rows", "rows"), pass("upscale columns", "columns")];
-        Upscale { rows, columns, stars_layout, stars, layout, format, targets: None }
+        Upscale { rows, columns, outline_layout, outline, sampler, stars_layout, stars, layout, format, targets: None }
     }
 
     /// Takes up targets of a new size. `adapted` is the exposure of the picture.
@@ -63,11 +81,14 @@ impl Upscale {
         } else if self.targets.as_ref().is_none_or(|own| own.sizes != [drawn, output]) {
             let [small, wide] =
                 [("drawn", drawn), ("wide", [output[0], drawn[1]])].map(|(label, size)| target(device, label, size, self.format).1);
-            let group = |view| bind(device, "upscale", &self.layout, &[wgpu::BindingResource::TextureView(view)]);
-            let seen = [wgpu::BindingResource::TextureView(&targets.picture), adapted.as_entire_binding()];
+            let mask = target(device, "own ship", output, MASK_FORMAT).1;
+            let masked = [TextureView(&small), TextureView(&mask), wgpu::BindingResource::Sampler(&self.sampler)];
+            let outline_group = bind(device, "own outline", &self.outline_layout, &masked);
+            let group = |view| bind(device, "upscale", &self.layout, &[TextureView(view)]);
+            let seen = [TextureView(&targets.picture), adapted.as_entire_binding()];
             let stars_group = bind(device, "stars over", &self.stars_layout, &seen);
             let groups = [group(&small), group(&wide)];
-            self.targets = Some(UpscaleTargets { sizes: [drawn, output], groups, stars_group, drawn: small, wide });
+            self.targets = Some(UpscaleTargets { sizes: [drawn, output], groups, mask, outline_group, stars_group, drawn: small, wide });
         }
     }
 
@@ -76,13 +97,28 @@ impl Upscale {
         self.targets.as_ref().map(|targets| &targets.drawn)
     }
 
-    /// Enlarges what was drawn, into `output`, and lays stars over it; nothing where that is as large.
-    pub fn run(&self, recording: &mut Recording, stars: &Stars, output: &wgpu::TextureView) {
+    /// Enlarges what was drawn, into `output`, sharpens the outline of the own ship, if there is one, and lays stars over it; nothing where
+    /// that is as large.
+    pub fn run(&self, recording: &mut Recording, own_ship: Option<&Geometry>, stars: &Stars, output: &wgpu::TextureView) {
         let Some(targets) = &self.targets else { return };
         for (pipeline, group, to) in [(&self.rows, &targets.groups[0], &targets.wide), (&self.columns, &targets.groups[1], output)] {
             begin(recording, ["upscale"; 2], &[Some(colour(to, true))], pipeline, group).draw(0..3, 0..1);
         }
         let over = &[Some(colour(output, false))];
+        if let Some(geometry) = own_ship {
+            {
+                let timestamp_writes = recording.timing.render(recording.encoder, "upscale");
+                let mut pass = recording.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some("own ship"),
+                    color_attachments: &[Some(colour(&targets.mask, true))],
+                    timestamp_writes,
+                    ..Default::default()
+                });
+                pass.set_bind_group(0, recording.frame, &[]);
+                geometry.draw_own(&mut pass);
+            }
+            begin(recording, ["upscale", "own outline"], over, &self.outline, &targets.outline_group).draw(0..6, 0..1);
+        }
         stars.draw_by(&mut begin(recording, ["stars over"; 2], over, &self.stars, &targets.stars_group));
     }
 }

@@ -50,7 +50,8 @@ impl Renderer {
         shown.add_stars(&mut recording);
         let drawn = self.upscale.drawn().unwrap_or(output);
         self.post_process.run(&mut recording, &self.adaptation, self.finish, drawn);
-        self.upscale.run(&mut recording, &self.stars, output);
+        let own_ship = Some(&self.geometry).filter(|_| self.finish.has_own_ship);
+        self.upscale.run(&mut recording, own_ship, &self.stars, output);
         self.before = if self.finish.steady { Before::Measured } else { Before::Unmeasured };
         if self.counting {
             self.counted[0].record(&self.gpu.device, encoder, self.geometry.counters());

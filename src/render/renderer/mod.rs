@@ -193,7 +193,7 @@ impl Renderer {
             output: (targets.size, 1.0),
             targets,
             hidden: size.contains(&0),
-            finish: Finish { blooms: true, smooth: false, steady: false, resolution: 1.0 },
+            finish: Finish { blooms: true, smooth: false, has_own_ship: false, steady: false, resolution: 1.0 },
             before: Before::Black,
             counting: false,
             counted: Default::default(),

@@ -87,6 +87,7 @@ impl Renderer {
         self.background.prepare(&self.gpu, size);
         self.aurora.prepare(&self.gpu, input.aurora.as_ref(), &self.targets);
         self.finish.smooth = input.settings.smooth && input.has_bodies();
+        self.finish.has_own_ship = input.settings.unmetered[2] > 0.0;
         self.finish.blooms = input.settings.bloom > 0.0;
         self.finish.resolution = input.settings.resolution;
         self.timing.worked("rest of the uploads", begin);

@@ -63,7 +63,11 @@ impl Goal {
         match self.task {
             GoalTask::Survive { until, .. } => in_time(until, "until")?,
             GoalTask::Gates if mission.gates.is_empty() => return Err("kind = \"gates\" needs at least one [[gate]]".into()),
-            GoalTask::Hold { span, .. } | GoalTask::Reach { span, .. } | GoalTask::Look { span, .. } | GoalTask::Coast { span } => {
+            GoalTask::Hold { span, .. }
+            | GoalTask::Match { span, .. }
+            | GoalTask::Reach { span, .. }
+            | GoalTask::Look { span, .. }
+            | GoalTask::Coast { span } => {
                 in_time(span, "for")?;
             }
             _ => (),
@@ -117,6 +121,17 @@ pub enum GoalTask {
         /// Without a break.
         span: f64,
     },
+    /// Move as a ship does, near it.
+    Match {
+        /// Which.
+        ship: usize,
+        /// At most so far, on the slice T = const.
+        distance: f64,
+        /// At most so fast against it, in c.
+        speed: f64,
+        /// Without a break.
+        span: f64,
+    },
     /// Hit a ship with bolts.
     Hit {
         /// Which.
@@ -150,7 +165,9 @@ impl GoalTask {
     /// The ship that it is about.
     pub fn ship(&self) -> Option<usize> {
         match *self {
-            GoalTask::Look { ship, .. } | GoalTask::Hold { ship, .. } | GoalTask::Hit { ship, .. } => Some(ship),
+            GoalTask::Look { ship, .. } | GoalTask::Hold { ship, .. } | GoalTask::Match { ship, .. } | GoalTask::Hit { ship, .. } => {
+                Some(ship)
+            }
             _ => None,
         }
     }
@@ -176,7 +193,7 @@ const fn kind(name: &'static str, needed: Keys, optional: Keys, task: ReadTask) 
 }
 
 /// All of them.
-const KINDS: [Kind; 10] = [
+const KINDS: [Kind; 11] = [
     kind("burn", &["amount"], &[], |entry, _| Ok(GoalTask::Burn { amount: number(&entry.amount, "amount", 1e-3..=100.0, "c", 0.1)? })),
     kind("turn", &["angle"], &[], |entry, _| Ok(GoalTask::Turn { angle: entry.angle(1.0)? })),
     kind("coast", &["for"], &[], |entry, _| Ok(GoalTask::Coast { span: entry.span(1.0)? })),
@@ -190,6 +207,11 @@ const KINDS: [Kind; 10] = [
     kind("hold", &["ship"], &["distance", "for"], |entry, ships| {
         let distance = entry.distance.as_ref().map(|distance| in_range(distance, "distance", 0.01..=FARTHEST, "r_s")).transpose()?;
         Ok(GoalTask::Hold { ship: entry.ship(ships)?, distance, span: entry.span(f64::NAN)? })
+    }),
+    kind("match", &["ship", "distance", "speed"], &["for"], |entry, ships| {
+        let distance = number(&entry.distance, "distance", 0.01..=FARTHEST, "r_s", 0.0)?;
+        let speed = number(&entry.speed, "speed", 1e-3..=1.0, "c", 0.0)?;
+        Ok(GoalTask::Match { ship: entry.ship(ships)?, distance, speed, span: entry.span(0.0)? })
     }),
     kind("hit", &["ship"], &["times"], |entry, ships| Ok(GoalTask::Hit { ship: entry.ship(ships)?, times: entry.times()? })),
     kind("survive", &["until"], &["radius"], |entry, _| {
@@ -229,6 +251,7 @@ pub struct GoalEntry {
     #[serde(default, deserialize_with = "exactly_or_none")]
     radius: Option<Spanned<[f64; 2]>>,
     distance: Option<Spanned<f64>>,
+    speed: Option<Spanned<f64>>,
     times: Option<Spanned<u32>>,
     until: Option<Spanned<f64>>,
     turns: Option<Spanned<f64>>,
@@ -266,6 +289,8 @@ impl GoalEntry {
             ("for", at(&self.span)),
             ("ship", at(&self.ship)),
             ("radius", at(&self.radius)),
+            ("distance", at(&self.distance)),
+            ("speed", at(&self.speed)),
             ("distance", at(&self.distance)),
             ("times", at(&self.times)),
             ("until", at(&self.until)),

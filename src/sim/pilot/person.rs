@@ -13,6 +13,7 @@ use crate::sim::ChaseRules;
 use crate::sim::assist::{AssistMode, Stick};
 use crate::sim::bolts::{Gun, Trigger, nearest};
 use crate::sim::clock::Clock;
+use crate::sim::goals::{ActiveMission, Progress, catch_radius};
 use crate::sim::guidance::{Brake, approach, guidance};
 use crate::sim::player_commands::{ManualControl, PlayerCommands};
 use crate::sim::ship::{Controls, Ended, Engine, Fleet, Manual, Pilot, PilotOrder, ShipMotion};
@@ -154,6 +155,7 @@ type PersonShip<'a> =
 pub fn fly_as_person(
     (clock, fleet, commands, rules): (Res<Clock>, Res<Fleet>, Res<PlayerCommands>, Res<ChaseRules>),
     control: Option<Res<ManualControl>>,
+    (mission, progress): (Option<Res<ActiveMission>>, Option<Res<Progress>>),
     targets: Targets,
     mut ships: Query<PersonShip, (Without<Ended>, Without<Manual>)>,
 ) {
@@ -171,7 +173,7 @@ pub fn fly_as_person(
             let image = targets.image(entity, state, clock.time);
             let reach = match targets.of(entity) {
                 Some(Target::Gate(_, radius)) => radius,
-                _ => rules.0.capture_radius,
+                _ => catch_radius(mission.as_deref(), progress.as_deref(), &rules).unwrap_or(rules.0.capture_radius),
             };
             let view = View { state, order: pilot.order, engine: &engine, target: known(), image, reach, bolts };
             let action = person.decide(&view, clock.time);

@@ -5,6 +5,7 @@
 
 use glam::DVec3;
 use rand::{RngExt, rngs::StdRng};
+use rayon::prelude::*;
 
 use super::rollout::{PlannedBurn, Point, Span, advance, track};
 
@@ -127,33 +128,32 @@ pub fn plan(task: &Task, previous: &PlannedBurn, chance: &mut StdRng) -> (Planne
         // What is held stays where it is.
         Aim::Pass | Aim::Keep(_) => vec![task.other; span.count + 1],
     };
-    let mut best = (PlannedBurn::COAST, f64::INFINITY);
-    let mut consider = |burn: PlannedBurn| {
+    let judged = |burn: PlannedBurn| {
         let endurance = if burn.thrust == DVec3::ZERO { 0.0 } else { task.fuel / burn.thrust.length() };
         let burn = PlannedBurn { duration: burn.duration.min(endurance), ..burn };
-        let cost = cost(task, &burn, &other, span);
-        if cost < best.1 {
-            best = (burn, cost);
-        }
-        best
+        (burn, cost(task, &burn, &other, span))
     };
-    consider(PlannedBurn::COAST);
-    consider(*previous);
+    // Of equals the first.
+    let better = |best: (PlannedBurn, f64), next: (PlannedBurn, f64)| if next.1 < best.1 { next } else { best };
     let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
     let directions: Vec<DVec3> = axes.chain((0..DIRECTIONS).map(|_| unit_vector(chance))).collect();
-    for direction in directions {
-        for duration in DURATIONS {
-            consider(PlannedBurn { thrust: direction * task.max_thrust, duration });
-        }
-    }
-    let mut found = consider(PlannedBurn::COAST);
+    let straight = directions
+        .into_iter()
+        .flat_map(|direction| DURATIONS.map(|duration| PlannedBurn { thrust: direction * task.max_thrust, duration }));
+    let burns: Vec<PlannedBurn> = [PlannedBurn::COAST, *previous].into_iter().chain(straight).collect();
+    // A frame waits for its plan: all threads make it. Who flies many games at once has a thread for each.
+    let costs: Vec<_> = if rayon::current_thread_index().is_none() {
+        burns.into_par_iter().map(judged).collect()
+    } else {
+        burns.into_iter().map(judged).collect()
+    };
+    let mut best = costs.into_iter().fold((PlannedBurn::COAST, f64::INFINITY), better);
     for _ in 0..REFINEMENTS {
-        let base = found.0;
-        let thrust = (base.thrust + unit_vector(chance) * (PUSH * task.max_thrust)).clamp_length_max(task.max_thrust);
-        let duration = (base.duration * chance.random_range(STRETCH)).max(STEP);
-        found = consider(PlannedBurn { thrust, duration });
+        let thrust = (best.0.thrust + unit_vector(chance) * (PUSH * task.max_thrust)).clamp_length_max(task.max_thrust);
+        let duration = (best.0.duration * chance.random_range(STRETCH)).max(STEP);
+        best = better(best, judged(PlannedBurn { thrust, duration }));
     }
-    found
+    best
 }
 
 /// The smaller the better; distances in r_s, times in r_s/c.

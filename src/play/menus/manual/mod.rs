@@ -12,7 +12,7 @@ mod orbits;
 mod past;
 mod rays;
 mod shadow;
-mod sketch;
+pub(super) mod sketch;
 
 use bevy_egui::egui::{Painter, Rect, RichText, Sense, Ui, vec2};
 
