@@ -2,7 +2,7 @@
 
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::SeenStar
-#import lensrunner::sky::star_spot::{spot_corner, spot_share}
+#import lensrunner::sky::star_spot::{BRIGHT_RADIUS, DIM_FOR_ONE, spot_corner, spot_share}
 
 @group(1) @binding(0) var<storage, read> seen_stars: array<SeenStar>;
 
@@ -24,10 +24,15 @@ fn drawn_sigma() -> f32 {
 @vertex
 fn vertex(@builtin(vertex_index) i: u32) -> Spot {
     let star = seen_stars[i / 3u];
-    let corner = spot_corner(i % 3u) * (star.radius * (drawn_sigma() / frame.star_sigma));
+    let is_enlarged = frame.enlargement > 1.0;
+    let is_dim = abs(star.radius) < BRIGHT_RADIUS * frame.star_sigma;
+    // Of the dim stars of a picture that is enlarged one stands for some: here they only count for glow and exposure.
+    let stands_for = select(1.0, f32(DIM_FOR_ONE), is_enlarged & is_dim);
+    let radius = select(abs(star.radius), max(star.radius, 0.0), is_enlarged);
+    let corner = spot_corner(i % 3u) * (radius * (drawn_sigma() / frame.star_sigma));
     // A depth just nearer than the sky's: everything solid hides it.
     return Spot(vec4<f32>(star.place + corner * 2.0 / frame.size, 1e-12, 1.0), corner,
-        star.colour / (frame.enlargement * frame.enlargement));
+        star.colour * stands_for / (frame.enlargement * frame.enlargement));
 }
 
 @fragment

@@ -37,7 +37,7 @@ fn vertex(@builtin(vertex_index) i: u32) -> Spot {
     let star = seen_stars[i / 3u];
     let free = 1.0 - covered_at(star.place);
     // Where nothing is free, of no size.
-    let corner = spot_corner(i % 3u) * select(0.0, star.radius, free > 0.0);
+    let corner = spot_corner(i % 3u) * select(0.0, abs(star.radius), free > 0.0);
     return Spot(vec4<f32>(star.place + corner * 2.0 / (frame.size * frame.enlargement), 0.0, 1.0), corner, star.colour * free);
 }
 

@@ -6,6 +6,7 @@
 #import lensrunner::gpu::colour::{blackbody_rgb, luminance}
 #import lensrunner::gpu::types::{FLAG_BEAMING, FLAG_DOPPLER, SeenStar, STAR_CLUSTERS, STAR_ORDERS, Star}
 #import lensrunner::sky::star_clusters::star_cluster
+#import lensrunner::sky::star_spot::{BRIGHT_RADIUS, DIM, DIM_FOR_ONE, DIM_RADIUS}
 #import lensrunner::sky::table::{camera_doppler, PI, sky_ratio, sky_seen}
 
 /// Clusters that may be on the screen, and how many, as stars_cull.wgsl leaves them.
@@ -101,7 +102,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             atomicSub(&star_draw.vertices, 3u);
             break;
         }
-        seen_stars[slot] = SeenStar(ndc, frame.star_sigma * select(3.6, 2.2, luminance(colour) * exposure < 0.1),
-            min(colour, vec3<f32>(6e4)));
+        let is_dim = luminance(colour) * exposure < DIM;
+        let is_left_out = is_dim & (i % DIM_FOR_ONE != 0u);
+        let radius = frame.star_sigma * select(BRIGHT_RADIUS, DIM_RADIUS, is_dim);
+        seen_stars[slot] = SeenStar(ndc, select(radius, -radius, is_left_out), min(colour, vec3<f32>(6e4)));
     }
 }

@@ -88,7 +88,7 @@ fn outlines_of_bodies_are_smooth() {
 }
 
 /// The chase at its start, ready to be drawn.
-fn a_chase(size: [u32; 2]) -> ([u32; 2], GameConfig, LentRenderer, Stage, Moment) {
+pub fn a_chase(size: [u32; 2]) -> ([u32; 2], GameConfig, LentRenderer, Stage, Moment) {
     let mut config = GameConfig::default();
     // Its strokes are added in any order, which rounding tells.
     config.aurora.enabled = false;

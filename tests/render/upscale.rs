@@ -1,9 +1,11 @@
 //! A picture drawn smaller than the output is enlarged to it by cubic convolution.
 
+use lensrunner::render::gpu::readback::ReadbackPicture;
 use lensrunner::render::settings::Settings;
-use lensrunner::render::stage::Stage;
+use lensrunner::render::stage::{self, Stage};
 use lensrunner::scene::{self, GameConfig};
 
+use crate::render::post_process::a_chase;
 use crate::render::support::{linear, renderer};
 
 /// Keys' kernel (1981, equation 4), as in upscale.wgsl of this sharpness.
@@ -69,4 +71,46 @@ fn a_small_picture_is_enlarged_as_in_rust() {
     }
     // Drivers may round otherwise on the way to eight bits, twice.
     assert!(20 * wide < values, "{wide} of {values} values are off by more than a step");
+}
+
+/// Beside the outline of the own ship an enlarged picture is nearer to the full one than it is without its mask: there each pixel has the
+/// colour of its own side.
+#[test]
+fn the_own_ship_keeps_its_outline() {
+    let (size, config, mut renderer, mut stage, moment) = a_chase([480, 270]);
+    let mut draw = |resolution: f32, is_masked: bool| {
+        let exposure_range = [1.0; 2];
+        let settings = Settings { own_ship: Some(0), resolution, exposure_range, bloom: 0.0, smooth: false, ..stage::settings(&config) };
+        let camera = stage.camera(0.0, &moment.ships());
+        let mut frame = stage.frame(camera, size, 0.0, &moment.histories(), None, &settings);
+        assert!(frame.settings.unmetered[2] > 0.0);
+        if !is_masked {
+            frame.settings.unmetered = [0.0; 3];
+        }
+        renderer.picture(&frame, true).unwrap()
+    };
+    let full = draw(1.0, true);
+    let [masked, plain] = [true, false].map(|is_masked| draw(0.25, is_masked));
+    let wide = size[0] as usize;
+    let is_ship = |k: usize| full.layers[k][0] == 1.0;
+    // Within two pixels of the outline.
+    let beside = |k: usize| {
+        let steps = [1, 2, wide, 2 * wide];
+        steps.into_iter().any(|step| {
+            [k.checked_sub(step), Some(k + step)]
+                .into_iter()
+                .flatten()
+                .any(|other| other < full.layers.len() && is_ship(other) != is_ship(k))
+        })
+    };
+    // Outside: the ship's own surface is coarse at a quarter of the width.
+    let outline: Vec<usize> = (0..full.layers.len()).filter(|&k| beside(k) && !is_ship(k)).collect();
+    assert!(outline.len() > 150, "{} pixels", outline.len());
+    let error = |picture: &ReadbackPicture| -> f64 {
+        let differences = outline.iter().flat_map(|&k| 4 * k..4 * k + 3).map(|byte| picture.display[byte].abs_diff(full.display[byte]));
+        differences.map(f64::from).sum::<f64>() / (3 * outline.len()) as f64
+    };
+    let [masked, plain] = [error(&masked), error(&plain)];
+    // Most of what is left is the gas behind, as coarse in both.
+    assert!(masked < 0.8 * plain, "{masked:.1} of {plain:.1}");
 }

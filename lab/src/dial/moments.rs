@@ -27,9 +27,9 @@ const TURNED: f64 = 0.5;
 /// No nearer to the hole than this, in r_s: a camera that falls through the horizon is a class of its own.
 const NEAREST: f64 = 1.2;
 /// Frames of which the quickest is the time of one.
-const TIMED: usize = 4;
+const TIMED: usize = 2;
 /// Timings before those that count.
-const WARM: usize = 4;
+const WARM: usize = 2;
 /// Scenes drawn before a class is given up.
 const TRIES: usize = 200;
 

@@ -107,7 +107,7 @@ impl Upscale {
         let over = &[Some(colour(output, false))];
         if let Some(geometry) = own_ship {
             {
-                let timestamp_writes = recording.timing.render(recording.encoder, "upscale");
+                let timestamp_writes = recording.timing.render(recording.encoder, "own outline");
                 let mut pass = recording.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                     label: Some("own ship"),
                     color_attachments: &[Some(colour(&targets.mask, true))],
@@ -117,7 +117,7 @@ impl Upscale {
                 pass.set_bind_group(0, recording.frame, &[]);
                 geometry.draw_own(&mut pass);
             }
-            begin(recording, ["upscale", "own outline"], over, &self.outline, &targets.outline_group).draw(0..6, 0..1);
+            begin(recording, ["own outline"; 2], over, &self.outline, &targets.outline_group).draw(0..6, 0..1);
         }
         stars.draw_by(&mut begin(recording, ["stars over"; 2], over, &self.stars, &targets.stars_group));
     }
