@@ -164,6 +164,7 @@ hud-goal = GOAL
 hud-goal-of = GOAL { $number } OF { $count }
 hud-hold-needs = within { $reach } r_s, for { $span } r_s/c
 hud-match-needs = within { $reach } r_s, { $speed } c against it at most, for { $span } r_s/c
+hud-match-needs-once = within { $reach } r_s, { $speed } c against it at most
 hud-hold = HOLD { $numbers } r_s/c
 hud-bolts = { $left } bolts
 hud-bolt-hits = a bolt now: HIT, if the target coasts

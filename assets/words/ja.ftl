@@ -164,6 +164,7 @@ hud-goal = 目標
 hud-goal-of = 目標 { $number } / { $count }
 hud-hold-needs = { $reach } r_s 以内に { $span } r_s/c
 hud-match-needs = { $reach } r_s 以内、標的に対して { $speed } c 以下で { $span } r_s/c
+hud-match-needs-once = { $reach } r_s 以内、標的に対して { $speed } c 以下
 hud-hold = 保持 { $numbers } r_s/c
 hud-bolts = 弾 { $left }
 hud-bolt-hits = 今撃てば命中（標的が噴射しなければ）

@@ -16,9 +16,9 @@ mission-01-training-goal-4-hint = [look_at_target] を押し続けるか、船�
 mission-01-training-goal-5 = ドローンのそばまで飛んで、止まる
 mission-01-training-goal-5-hint = 船首を「現在」の輪に向けて、[thrust_forward] を押し続けます。「今すぐ減速」と出たら、[toggle_assist] を押し続けます。ドローンに対する動きが消えます。
 mission-01-training-goal-6 = ドローンと同じ動きをする
-mission-01-training-goal-6-hint = ドローンに対する動きの矢印が消えるまで、[toggle_assist] を押し続けます。3 r_s より遠いときは、「現在」の輪のほうへ少し押しましょう。
+mission-01-training-goal-6-hint = ドローンに対する動きの矢印が消えるまで、[toggle_assist] を押し続けます。4 r_s より遠いときは、「現在」の輪のほうへ少し押しましょう。
 mission-01-training-goal-7 = ドローンをつかまえる：1.5 r_s 以内にとどまる
-mission-01-training-goal-7-hint = [toggle_assist] を軽く押して「アシスト：標的」にし、「現在」の輪のほうへ少しだけ押します。「今すぐ減速」と出たら、[toggle_assist] を押し続けます。[slower] で、すべてがゆっくりになります。
+mission-01-training-goal-7-hint = [toggle_assist] を軽く押して「アシスト：標的」にし、船首を「現在」の輪に向けて [thrust_forward] を押し続けます。はなすと、そこで止まります。[slower] で、すべてがゆっくりになります。
 
 mission-02-first-pursuit-title = 最初の追跡
 mission-02-first-pursuit-idea = 低い軌道ほど速く回ります。追いつきたければ、下りましょう。

@@ -8,8 +8,8 @@ use lensrunner::argument::whole;
 use lensrunner_lab::chart::{ChartError, Output, announce};
 use lensrunner_lab::projection::race::Race;
 use lensrunner_lab::{
-    aurora, bodies, bvh, dial, disk, drivers, flight, frame_times, hands_frames, motion, overlay_cost, projection, quarry, soak, steps,
-    tessellation, thin_disk, window_rates,
+    aurora, bodies, bvh, dial, disk, drivers, flight, frame_times, hands_frames, hud_cost, motion, overlay_cost, projection, quarry, soak,
+    steps, tessellation, thin_disk, window_rates,
 };
 
 use crate::fail;
@@ -34,6 +34,7 @@ pub enum ChartCommand {
     Motion(motion::MotionRequest),
     Steps(steps::StepsRequest),
     Overlay(overlay_cost::OverlayRequest),
+    Hud(hud_cost::HudRequest),
     Window(window_rates::WindowRequest),
 }
 
@@ -83,6 +84,7 @@ pub fn run(chart: ChartCommand) -> ExitCode {
         ChartCommand::Motion(request) => motion::run(request),
         ChartCommand::Steps(request) => steps::run(request),
         ChartCommand::Overlay(request) => overlay_cost::run(request),
+        ChartCommand::Hud(request) => hud_cost::run(request),
         ChartCommand::Window(request) => window_rates::run(request),
     })
 }

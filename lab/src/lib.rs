@@ -5,7 +5,7 @@
 //!   [`frame_times`] times whole frames, [`bodies`] frames of more and more bodies, [`window_rates`] frames in a window.
 //! - [`dial`]: what each option of the quality costs and saves, and whether that predicts.
 //! - [`quarry`]: how long the game's quarry lasts beside blind ones.
-//! - [`steps`]: what a step of the simulation costs; [`overlay_cost`]: what the dev overlay costs the processor.
+//! - [`steps`]: what a step of the simulation costs; [`overlay_cost`], [`hud_cost`]: what overlay and HUD cost the processor.
 //! - [`straight`]: straight rays through trees of boxes (Sei 2008), which `bvh` measures.
 //! - [`products`]: every chart, table and picture of the documents, and whether it is up to date.
 //! - [`chart`], [`plot`]: CSV files with their provenance, and how they are drawn; [`offscreen`]: whole frames to be timed.
@@ -24,6 +24,7 @@ pub mod flight;
 pub mod flip;
 pub mod frame_times;
 pub mod hands_frames;
+pub mod hud_cost;
 pub mod motion;
 pub mod offscreen;
 pub mod overlay_cost;

@@ -36,8 +36,9 @@ const REACTION: f64 = 0.75;
 const SOON: f64 = 0.7;
 /// Slower than this against the target, in c, nobody need brake.
 const SLOW: f64 = 0.02;
-/// The way of braking ends this share of the catch radius before the target.
-const SHORT: f64 = 0.5;
+/// The way of braking ends this share of the catch radius before the target, and at most so far, in r_s: who drifts past a wide one need
+/// not brake.
+const SHORT: (f64, f64) = (0.5, 0.5);
 
 /// The guidance of a ship with an engine of `thrust` (c²/r_s) to a target that is caught within `reach` (r_s).
 ///
@@ -49,7 +50,7 @@ pub fn guidance(own: &Point, target: &Point, thrust: f64, reach: f64) -> Guidanc
     let gamma = (1.0 - speed * speed).sqrt().recip();
     let stopping = (gamma - 1.0) / thrust.max(1e-9);
     // What is left of the way along the motion, before it is past the target.
-    let room = apart.dot(velocity) / speed.max(1e-9) - SHORT * reach;
+    let room = apart.dot(velocity) / speed.max(1e-9) - (SHORT.0 * reach).min(SHORT.1);
     let needed = stopping + REACTION * speed;
     let brake = match () {
         () if speed < SLOW => Brake::Free,

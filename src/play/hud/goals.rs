@@ -76,16 +76,17 @@ pub fn lay_out(painter: &Painter, rect: Rect, top: f32, goals: &Goals, slow: &mu
 fn held_words(language: Language, mission: &Mission, progress: &Progress, rules: &ChaseRules) -> Option<String> {
     let task = &mission.goals.get(progress.goal)?.task;
     let decimals = |value: f64| format!("{value:.2}");
-    let span = decimals(needed(task, mission, rules));
+    let whole = decimals(needed(task, mission, rules));
     match *task {
         GoalTask::Hold { distance, .. } => {
             let reach = decimals(distance.unwrap_or(rules.0.capture_radius));
-            Some(language.fill("hud-hold-needs", &[("reach", reach.as_str()), ("span", span.as_str())]))
+            Some(language.fill("hud-hold-needs", &[("reach", reach.as_str()), ("span", whole.as_str())]))
         }
-        GoalTask::Match { distance, speed, .. } => {
+        GoalTask::Match { distance, speed, span, .. } => {
             let [reach, speed] = [distance, speed].map(decimals);
-            let all = [("reach", reach.as_str()), ("speed", speed.as_str()), ("span", span.as_str())];
-            Some(language.fill("hud-match-needs", &all))
+            let all = [("reach", reach.as_str()), ("speed", speed.as_str()), ("span", whole.as_str())];
+            let key = if span > 0.0 { "hud-match-needs" } else { "hud-match-needs-once" };
+            Some(language.fill(key, &all))
         }
         _ => None,
     }

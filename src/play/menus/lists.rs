@@ -109,9 +109,10 @@ fn result(world: &World, session: &Session) -> Vec<Entry> {
     let last = world.get_resource::<LastFlight>();
     let won = session.scene.mission.is_some() && last.is_some_and(|last| last.won.is_some());
     let kept = last.is_some_and(|last| last.replay.is_some());
-    let mut entries =
-        vec![ask(language, "again", "menu-again", MenuAction::Again), ask(language, "another", "menu-another", MenuAction::Start)];
-    entries.extend(won.then(|| ask(language, "next", "menu-next", MenuAction::Next)));
+    // What most want next comes first.
+    let mut entries: Vec<Entry> = won.then(|| ask(language, "next", "menu-next", MenuAction::Next)).into_iter().collect();
+    entries.push(ask(language, "again", "menu-again", MenuAction::Again));
+    entries.push(ask(language, "another", "menu-another", MenuAction::Start));
     entries.extend(kept.then(|| ask(language, "watch", "menu-watch", MenuAction::Watch)));
     entries.push(ask(language, "title", "menu-title", MenuAction::Title));
     entries.push(ask(language, "quit", "menu-quit", MenuAction::Quit));
