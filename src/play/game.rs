@@ -1,11 +1,12 @@
 //! The game without its window: screens, keys, time, and the player's commands to the ship. Runs in a minimal app, for tests.
 
-use crate::play::player_state::{Flown, PlayerState, TAP};
+use crate::play::player_state::{Flown, PlayerState, TAP, assist_words};
 use bevy::input::mouse::AccumulatedMouseMotion;
 use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
 
 use crate::scene::config;
+use crate::sim::assist::AssistMode;
 use crate::sim::by_hand::choose_pilot;
 use crate::sim::replay::Playback;
 use crate::sim::ship::Player;
@@ -13,6 +14,8 @@ use crate::sim::{Chase, Clock, Engine, Fleet, PlayerCommands, ShipMotion, SimSet
 use crate::spacetime::matter::gamma;
 
 use crate::play::camera::orbit::Orbit;
+use crate::play::hud::notice::Notice;
+use crate::play::hud::panel::Panel;
 use crate::play::input::action::Action;
 use crate::play::input::gaze::Gaze;
 use crate::play::input::lead::lead_camera;
@@ -127,8 +130,8 @@ fn read_keys(
     mut session: ResMut<Session>,
     (mut player, mut menu): (ResMut<PlayerState>, ResMut<Menu>),
     (chase, real, turned): (Option<Res<Chase>>, Res<Time<Real>>, Res<AccumulatedMouseMotion>),
-    mut actions: MessageWriter<MenuAction>,
-    mut commands: Commands,
+    (panel, notice): (Option<Res<Panel>>, Option<ResMut<Notice>>),
+    (mut actions, mut commands): (MessageWriter<MenuAction>, Commands),
 ) {
     let plays = *screen.get() == Screen::Playing;
     if input.pushed(Action::ToggleOverlay) {
@@ -183,7 +186,15 @@ fn read_keys(
     if input.pushed(Action::ToggleHud) {
         player.hud_off = !player.hud_off;
     }
-    hold_assist(&input, &mut player, &session, chase.is_some_and(|chase| chase.quarry.is_some()), real.delta_secs_f64());
+    let has_target = chase.is_some_and(|chase| chase.quarry.is_some());
+    let brakes = panel.is_some_and(|panel| panel.brakes());
+    let chosen = hold_assist(&input, &mut player, &session, [has_target, brakes], real.delta_secs_f64());
+    if let (Some(mode), Some(mut notice)) = (chosen, notice) {
+        let language = session.language();
+        let [now, next] = [mode, mode.next(has_target)].map(|mode| language.say(assist_words(mode)));
+        let text = language.fill("hud-assist-chosen", &[("now", now.as_str()), ("next", next.as_str())]);
+        *notice = Notice { text, until: real.elapsed_secs_f64() + CHOSEN, share: None };
+    }
     let begins = input.stick().thrust != glam::DVec3::ZERO || input.holds(Action::LookAtTarget) || input.holds(Action::ToggleAutopilot);
     player.begun |= player.pilot.is_some() || begins;
     player.touched |= begins || input.stick().turn != glam::DVec3::ZERO || turned.delta.length() > 0.0;
@@ -197,18 +208,28 @@ fn read_keys(
     }
 }
 
-/// The assist's key: a tap chooses what it holds to, held it matches the target's motion. `seconds` of wall time have passed.
-fn hold_assist(input: &PlayerInput, player: &mut PlayerState, session: &Session, has_target: bool, seconds: f64) {
+/// The assist's key: a tap chooses what it holds to, which is returned; held it matches the target's motion. `seconds` of wall time have
+/// passed. `brakes`: the sign to brake is shown, and a tap is meant for it.
+fn hold_assist(
+    input: &PlayerInput,
+    player: &mut PlayerState,
+    session: &Session,
+    [has_target, brakes]: [bool; 2],
+    seconds: f64,
+) -> Option<AssistMode> {
     let held = input.holds(Action::ToggleAssist);
     let pushed = input.pushed(Action::ToggleAssist);
     let before = player.assist_held;
     player.assist_held = held.then(|| before.map_or(0.0, |before| before + seconds));
     // A short press may begin and end within a frame.
     let tapped = !held && before.map_or(pushed, |before| before < TAP);
-    if tapped {
-        player.assist = Some(player.assisted(&session.config).next(has_target));
-    }
+    let chosen = (tapped && !brakes).then(|| player.assisted(&session.config).next(has_target));
+    player.assist = chosen.or(player.assist);
+    chosen
 }
+
+/// How long it is said what the assist holds to, in seconds of wall time.
+const CHOSEN: f64 = 2.5;
 
 /// Switches a setting that is kept.
 fn toggle(world: &mut World, path: &str) {

@@ -76,3 +76,12 @@ impl PlayerState {
         self.assist_held.is_some_and(|held| held >= TAP)
     }
 }
+
+/// The key of the words for what the assist holds to.
+pub fn assist_words(mode: AssistMode) -> &'static str {
+    match mode {
+        AssistMode::Orbit => "hud-assist",
+        AssistMode::Target => "hud-assist-target",
+        AssistMode::Off => "hud-free-flight",
+    }
+}

@@ -34,6 +34,9 @@ pub enum Brake {
 const REACTION: f64 = 0.75;
 /// From this share of the room on the way of braking is near to it.
 const SOON: f64 = 0.7;
+/// While braking needs less than this share of the distance there is time, wherever the motion leads: who drifts slowly past from afar has
+/// a course to mend, not to brake.
+const EARLY: f64 = 0.12;
 /// Slower than this against the target, in c, nobody need brake.
 const SLOW: f64 = 0.02;
 /// The way of braking ends this share of the catch radius before the target, and at most so far, in r_s: who drifts past a wide one need
@@ -56,6 +59,7 @@ pub fn guidance(own: &Point, target: &Point, thrust: f64, reach: f64) -> Guidanc
         () if speed < SLOW => Brake::Free,
         // Past it: what helps then is thrust towards it.
         () if apart.dot(velocity) < 0.0 && apart.length() > reach => Brake::Free,
+        () if needed < EARLY * apart.length() => Brake::Free,
         () if needed >= room => Brake::Now,
         () if needed >= SOON * room => Brake::Soon,
         () => Brake::Free,

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::matter::ShipState;
+use super::matter::{ShipState, angular_momentum, energy, gamma};
 use super::metric::river_speed;
 
 /// Where an orbit lies and where on it the ship is. All angles in radians.
@@ -99,6 +99,37 @@ pub fn orbital_frequency(radius: f64) -> f64 {
     1.0 / (2.0 * radius * radius * radius).sqrt()
 }
 
+/// The lowest radius, in r_s, of the free fall of a body in this state from now on; None where it ends in the hole.
+///
+/// (dr/dτ)² = E² − (1 − u)(1 + L²u²) with u = 1/r: the turning point is the first zero inwards, found to 1 % of r and then halved down to
+/// 10⁻⁶. Who flies outwards for ever is as low as now.
+pub fn lowest_radius(state: &ShipState) -> Option<f64> {
+    let r = state.position.length();
+    let (e, l) = (energy(state), angular_momentum(state).length());
+    let square = |u: f64| e * e - (1.0 - u) * (1.0 + l * l * u * u);
+    let outwards = state.position.dot(state.momentum) / r > gamma(state.momentum) * river_speed(r);
+    if r <= 1.0 {
+        return None;
+    }
+    if outwards && e >= 1.0 {
+        return Some(r);
+    }
+    let (mut outer, step) = (1.0 / r, 1.01);
+    while outer < 1.0 {
+        let inner = (outer * step).min(1.0);
+        if square(inner) < 0.0 {
+            let (mut low, mut high) = (outer, inner);
+            while high - low > 1e-6 * high {
+                let middle = 0.5 * (low + high);
+                if square(middle) < 0.0 { high = middle } else { low = middle }
+            }
+            return Some(1.0 / low);
+        }
+        outer = inner;
+    }
+    None
+}
+
 /// Rain-frame momentum of an observer hovering at `position`: p = nβ/√(1 − β²). None where none exists (r ≤ 1).
 pub fn static_momentum(position: DVec3) -> Option<DVec3> {
     let r = position.length();
@@ -114,4 +145,24 @@ pub fn circular_momentum(position: DVec3, along: DVec3) -> Option<DVec3> {
     let along = (along - outward * along.dot(outward)).try_normalize()?;
     let (energy, angular_momentum) = Elements::circle(r, 0.0).constants().ok()?;
     Some(momentum_from_constants(energy, angular_momentum, r, 0.0, outward, along))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fall_is_lowest_at_the_periapsis() {
+        for anomaly in [0.5, 2.0, 3.0, 4.5] {
+            let ellipse = Elements { eccentricity: 0.4, semi_latus_rectum: 7.0, anomaly, ..Elements::circle(7.0, 0.3) };
+            let lowest = lowest_radius(&ellipse.state().expect("an orbit")).expect("it does not fall in");
+            assert!((lowest - 5.0).abs() < 1e-4, "{anomaly}: {lowest}");
+        }
+        let circle = circular_orbit(6.0, 1.0).expect("a circle");
+        assert!(lowest_radius(&circle).is_some_and(|lowest| (lowest - 6.0).abs() < 0.1));
+        let rain = ShipState::new(DVec3::X * 6.0, DVec3::ZERO);
+        assert_eq!(lowest_radius(&rain), None);
+        let away = ShipState::new(DVec3::X * 6.0, DVec3::X * 3.0);
+        assert_eq!(lowest_radius(&away), Some(6.0));
+    }
 }

@@ -70,6 +70,8 @@ struct Coach {
     given: [u32; Hint::ALL.len()],
     /// Which were given in this flight.
     now: [bool; Hint::ALL.len()],
+    /// Until when the last hint is shown, in seconds of wall time.
+    until: f64,
     /// T of the flight in the frame before, in r_s/c.
     before: f64,
     /// T of the next look at whether it can be won.
@@ -88,10 +90,14 @@ impl Plugin for CoachPlugin {
 }
 
 /// Notes what happens; a flight that begins anew has a new review.
-fn review_flight(now: Now, panel: Res<Panel>, mut review: ResMut<Review>, mut coach: ResMut<Coach>) {
+fn review_flight(now: Now, panel: Res<Panel>, mut review: ResMut<Review>, mut coach: ResMut<Coach>, mut notice: ResMut<Notice>) {
     if begins_anew(&mut coach.before, now.clock()) {
         *review = Review::default();
         (coach.now, coach.look, coach.hopeless) = (Default::default(), 0.0, false);
+        // What was said of the flight before.
+        if notice.until == coach.until {
+            notice.until = 0.0;
+        }
     }
     let fuel = panel.instruments.map_or(1.0, |read| read.fuel_left);
     let decided = now.chase.as_ref().is_some_and(|chase| chase.outcome.is_some());
@@ -124,7 +130,8 @@ fn give_hints(
     let language = session.language();
     let action = if hint == Hint::Hopeless { Action::Restart } else { Action::ToggleAssist };
     let button = words::buttons::of(language, &bindings, *device, action);
-    *notice = Notice { text: language.fill(hint.key(), &[("button", button.as_str())]), until: seconds + SHOWN, share: None };
+    coach.until = seconds + SHOWN;
+    *notice = Notice { text: language.fill(hint.key(), &[("button", button.as_str())]), until: coach.until, share: None };
 }
 
 /// Whether a hint is to the point.

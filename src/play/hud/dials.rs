@@ -7,10 +7,9 @@ use crate::play::hud::instruments::{Bearing, Instruments, Scale};
 use crate::play::hud::markers::brake_colour;
 use crate::play::hud::paint::{ALARM, BAR_ROOM, FAINT, OWN, TEXT, TRUE, TextBox};
 use crate::play::hud::{BETWEEN, MARGIN};
-use crate::play::player_state::PlayerState;
+use crate::play::player_state::{PlayerState, assist_words};
 use crate::play::session::Session;
 use crate::scene::pilot_kind::PilotKind;
-use crate::sim::assist::AssistMode;
 use crate::sim::guidance::Guidance;
 
 /// Fuel is low below this share of a full tank.
@@ -110,12 +109,17 @@ fn distance(scale: &Scale, read: &Instruments) -> Vec<Line> {
         _ => TEXT,
     };
     let camera = format!("{:.2}", read.camera_radius);
-    let camera = scale.language.fill("hud-camera", &[("radius", camera.as_str()), ("km", scale.kilometres(read.camera_radius).as_str())]);
+    let falls = match read.lowest {
+        Some(lowest) => scale.language.fill("hud-falls-to", &[("radius", format!("{lowest:.2}").as_str())]),
+        None => scale.language.say("hud-falls-in"),
+    };
+    let camera = scale.language.fill("hud-camera", &[("radius", camera.as_str()), ("falls", falls.as_str())]);
+    let deep = if read.lowest.is_none() { TRUE } else { FAINT };
     vec![
         (Density::Reduced, scale.language.say("hud-from-hole"), 11.0, FAINT),
         (Density::Least, format!("r {:.2} r_s", read.radius), 19.0, colour),
         (Density::Full, scale.kilometres(read.radius), 13.0, TEXT),
-        (Density::Full, camera, 12.0, FAINT),
+        (Density::Full, camera, 12.0, deep),
     ]
 }
 
@@ -132,9 +136,13 @@ fn speed(scale: &Scale, read: &Instruments, helped: bool) -> Vec<Line> {
     ]
 }
 
+/// Who closes slower than this, in c, flies away.
+const AWAY: f64 = -0.05;
+
 fn target(scale: &Scale, read: &Bearing, going: Going) -> Vec<Line> {
     let language = scale.language;
-    let closing = going.guidance.map_or(TEXT, |guide| brake_colour(guide.brake));
+    // Away from it is not well either.
+    let closing = going.guidance.map_or(TEXT, |guide| if guide.closing() < AWAY { TRUE } else { brake_colour(guide.brake) });
     let mut lines = vec![
         (Density::Reduced, language.say(if going.by_light { "hud-range-seen" } else { "hud-range" }), 11.0, FAINT),
         (Density::Least, format!("{:.2} r_s", read.range), 26.0, TEXT),
@@ -176,9 +184,7 @@ fn state(
         (_, true, _) if player.pilot == Some(PilotKind::Hands) => "hud-hands",
         (_, true, _) => "hud-autopilot",
         _ if player.matching() => "hud-matching",
-        (_, _, AssistMode::Orbit) => "hud-assist",
-        (_, _, AssistMode::Target) => "hud-assist-target",
-        (_, _, AssistMode::Off) => "hud-free-flight",
+        (_, _, mode) => assist_words(mode),
     });
     let view = language.say(match player.view {
         _ if going.replayed => "hud-view-replay",

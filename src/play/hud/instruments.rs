@@ -3,6 +3,7 @@
 use crate::play::session::Session;
 use crate::play::words::Language;
 use crate::spacetime::matter::{ShipState, far_clock_rate, gamma, static_speed, velocity};
+use crate::spacetime::orbit::lowest_radius;
 
 /// GM☉/c², half of r_s per solar mass, in metres (IAU 2015 nominal GM☉ = 1.3271244e20 m³/s²).
 const HALF_RS_PER_SUN: f64 = 1476.625;
@@ -47,6 +48,9 @@ impl Scale {
     /// A time of `t` r_s/c in words: `12 d 03:45:10`.
     pub fn clock(&self, t: f64) -> String {
         let seconds = t * self.metres / LIGHT_SPEED;
+        if seconds <= -60.0 {
+            return format!("−{}", self.clock(-t));
+        }
         if seconds < 60.0 {
             return format!("{seconds:.3} s");
         }
@@ -106,6 +110,8 @@ pub struct Instruments {
     pub radius: f64,
     /// L of the camera, in r_s.
     pub camera_radius: f64,
+    /// The lowest r of the fall without thrust, in r_s; None where it ends in the hole.
+    pub lowest: Option<f64>,
     /// The ship's own clock τ, in r_s/c.
     pub own_time: f64,
     /// The far clock T, in r_s/c.
@@ -138,6 +144,7 @@ impl Instruments {
             rain_speed: state.momentum.length() / gamma(state.momentum),
             radius: state.position.length(),
             camera_radius,
+            lowest: lowest_radius(state),
             own_time: state.proper_time,
             far_time: time,
             far_rate: far_clock_rate(state),

@@ -23,7 +23,6 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 use crate::scene::GameConfig;
 use crate::sim::bolts::HIT_RADIUS;
 use crate::sim::by_hand::Avoiding;
-use crate::sim::guidance::Brake;
 use crate::sim::replay::Playback;
 use crate::sim::{ActiveMission, Chase, ChaseRules, PlayerCommands, Progress};
 
@@ -82,12 +81,14 @@ fn draw(
     (panel, commands, (bindings, device)): (Res<Panel>, Option<Res<PlayerCommands>>, Buttons),
     (notice, real, current): (Res<Notice>, Res<Time<Real>>, Option<Res<CurrentStage>>),
     (mission, progress, playback): Flown,
-    (slowing, mut slow, mut painted): (Res<Slowing>, Local<goals::Slow>, ResMut<Dials>),
+    (slowing, mut slow, mut painted, mut preloaded): (Res<Slowing>, Local<goals::Slow>, ResMut<Dials>, Local<Preloaded>),
 ) -> Result {
     let context = contexts.ctx_mut()?;
     let painter = context.layer_painter(egui::LayerId::background());
     let rect = context.content_rect();
-    preload_letters(context, &painter);
+    if preloaded.is_due(context.pixels_per_point()) {
+        preload_letters(context, &painter);
+    }
     let language = session.language();
     if current.is_none() {
         // Off the menu of the title.
@@ -159,16 +160,15 @@ fn draw(
     if player.view == CameraView::ThirdPerson {
         taken.other.push(markers::own_ship(rect, panel.field_of_view));
     }
-    markers::paint(&painter, rect, &panel, taken, language);
     for text_box in text_boxes {
         text_box.paint(&painter);
     }
-    let brake = panel.guidance.is_some_and(|guide| guide.brake == Brake::Now) && panel.reach.is_some();
     let edge =
         mission.as_ref().zip(progress.as_ref()).is_some_and(|(mission, progress)| goals::near_edge(&mission.0, progress, read.radius));
-    let warned = Warned { avoiding: avoiding.0, brake: brake && !player.autopilot, edge, radius: read.radius };
+    let warned = Warned { avoiding: avoiding.0, brake: panel.brakes() && !player.autopilot, edge, radius: read.radius };
     let button = words::buttons::of(language, &bindings, *device, Action::ToggleAssist);
-    warnings(&painter, rect, &warned, &button, language);
+    taken.panels.extend(warnings(&painter, rect, &warned, &button, language));
+    markers::paint(&painter, rect, &panel, taken, language);
     Ok(())
 }
 
@@ -190,13 +190,36 @@ fn message(painter: &Painter, rect: Rect, top: f32, words: &str, share: Option<f
 /// Sizes of all text of the HUD, in points.
 const SIZES: [f32; 9] = [11.0, 11.5, 12.0, 13.0, 14.0, 15.0, 18.0, 19.0, 26.0];
 
+/// When the letters were asked for last.
+#[derive(Default)]
+struct Preloaded {
+    /// Pixels to the point then.
+    scale: f32,
+    /// Frames since.
+    frames: u32,
+}
+
+/// The fonts keep a letter longer than this many frames without it.
+const ASKED_EVERY: u32 = 30;
+
+impl Preloaded {
+    /// Whether they are to be asked for again.
+    fn is_due(&mut self, scale: f32) -> bool {
+        self.frames += 1;
+        let due = scale != self.scale || self.frames >= ASKED_EVERY;
+        if due {
+            *self = Preloaded { scale, frames: 0 };
+        }
+        due
+    }
+}
+
 /// Has every letter drawn to the fonts' texture before it is needed, one picture of each: the texture reaches the screen a frame after what
 /// is written with it, and a digit that is seen for the first time would be missing meanwhile.
 fn preload_letters(context: &egui::Context, painter: &Painter) {
     if context.global_style().visuals.text_options.subpixel_binning {
         context.all_styles_mut(|style| style.visuals.text_options.subpixel_binning = false);
     }
-    // Kept by the fonts as long as it is asked for.
     let _ = painter.layout_job(LETTERS.clone());
 }
 
@@ -279,16 +302,16 @@ struct Warned {
     radius: f64,
 }
 
-/// Says it in large letters; `button` is what to hold for braking.
-fn warnings(painter: &Painter, rect: Rect, warned: &Warned, button: &str, language: Language) {
+/// Says it in large letters, and returns where; `button` is what to hold for braking.
+fn warnings(painter: &Painter, rect: Rect, warned: &Warned, button: &str, language: Language) -> Option<Rect> {
     let words = match warned {
         Warned { avoiding: true, .. } => language.say("hud-pulling-away"),
         Warned { radius: ..1.0, .. } => language.say("hud-below-horizon"),
         Warned { edge: true, .. } => language.say("hud-near-edge"),
         Warned { brake: true, .. } => language.fill("hud-brake-now", &[("button", button)]),
-        _ => return,
+        _ => return None,
     };
-    text(painter, pos2(rect.center().x, rect.bottom() - MARGIN - 28.0), Align2::CENTER_BOTTOM, &words, 18.0, ALARM);
+    Some(text(painter, pos2(rect.center().x, rect.bottom() - MARGIN - 28.0), Align2::CENTER_BOTTOM, &words, 18.0, ALARM))
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use crate::play::player_state::PlayerState;
 use crate::scene::disk::Gas;
 use crate::scene::mission::GoalTask;
 use crate::sim::Outcome;
-use crate::sim::guidance::{Guidance, guidance};
+use crate::sim::guidance::{Brake, Guidance, guidance};
 use crate::sim::pilot::aim::AimMarks;
 use crate::sim::pilot::rollout::Point;
 use crate::sim::seeing::{Phenomenon, Pointer, Scenery, SeenBody, Track, pointers};
@@ -70,6 +70,13 @@ pub struct Panel {
     pub pointers: Vec<Pointer>,
 }
 
+impl Panel {
+    /// Whether the sign to brake is to be shown.
+    pub fn brakes(&self) -> bool {
+        self.guidance.is_some_and(|guide| guide.brake == Brake::Now) && self.reach.is_some()
+    }
+}
+
 /// Slower than this against the target, in c, motion has no direction.
 const STILL: f64 = 0.01;
 
@@ -117,7 +124,7 @@ pub(in crate::play) fn read_panel(
     };
     let seeing = menu.page() == Some(Page::Seeing) && now.session.config.render.lensing;
     let aspect = windows.iter().next().map_or(16.0 / 9.0, |window| f64::from(window.width() / window.height().max(1.0)));
-    let pointers = if seeing { pointed_at(&now, &camera, aspect) } else { Vec::new() };
+    let pointers = if seeing { pointed_at(&now, &camera, aspect, marked_now) } else { Vec::new() };
     let moving = -relative_momentum(state.momentum, resting);
     let to_camera = camera.attitude.conjugate();
     let known = target.filter(|_| is_own).and_then(|history| known(&state, time, history, marked_now));
@@ -163,8 +170,8 @@ pub(in crate::play) fn read_panel(
     }
 }
 
-/// What of the physics is on the screen of `camera`, whose width is `aspect` times its height.
-fn pointed_at(now: &Now, camera: &Observer, aspect: f64) -> Vec<Pointer> {
+/// What of the physics is on the screen of `camera`, whose width is `aspect` times its height. `marked_now`: where the target is now is told.
+fn pointed_at(now: &Now, camera: &Observer, aspect: f64, marked_now: bool) -> Vec<Pointer> {
     let session = &now.session;
     let config = session.effective();
     let gas = session.scene.disk(&config).map(|disk| Gas::new(&disk, config.hole.mass_solar));
@@ -181,7 +188,8 @@ fn pointed_at(now: &Now, camera: &Observer, aspect: f64) -> Vec<Pointer> {
     let render = &config.render;
     found.retain(|pointer| match pointer.sight {
         Phenomenon::BlueSide | Phenomenon::RedSide => render.doppler,
-        Phenomenon::TrueTarget | Phenomenon::TargetImage => render.light_delay,
+        Phenomenon::TrueTarget => render.light_delay && marked_now,
+        Phenomenon::TargetImage => render.light_delay,
         Phenomenon::SecondImage | Phenomenon::EinsteinRing => render.light_delay && render.orders > 1,
         Phenomenon::DiskUnderside | Phenomenon::PhotonRing => render.orders > 1,
         Phenomenon::Shadow | Phenomenon::DiskFarSide | Phenomenon::Aberration => true,

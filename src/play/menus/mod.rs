@@ -224,9 +224,16 @@ fn footer(ui: &mut Ui, prompts: Prompts, unbinds: bool) {
 fn markers(ui: &mut Ui, language: Language) {
     let palette = Palette::in_use(ui.ctx());
     ui.add_space(6.0);
-    for (key, colour) in
-        [("marker-now", TRUE), ("marker-seen", SEEN), ("marker-second", SEEN), ("marker-course", OWN), ("marker-lines", FAINT)]
-    {
+    let markers = [
+        ("marker-now", TRUE),
+        ("marker-fallen", SEEN),
+        ("marker-seen", SEEN),
+        ("marker-second", SEEN),
+        ("marker-drift", OWN),
+        ("marker-course", OWN),
+        ("marker-lines", FAINT),
+    ];
+    for (key, colour) in markers {
         ui.label(RichText::new(language.say(key)).size(12.0).color(palette.shown(colour)));
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::rollout::{PlannedBurn, Point, advance};
+use super::rollout::{PlannedBurn, Point, Span, advance, track};
 use crate::sim::bolts::{HIT_RADIUS, LIFE, bolt_momentum, nearest};
 use crate::spacetime::matter::ShipState;
 
@@ -44,41 +44,40 @@ struct Trial {
     round: bool,
 }
 
-/// What is fired at: where it is, and what it burns.
-#[derive(Clone, Copy, Debug)]
+/// What is fired at.
+#[derive(Clone, Debug)]
 pub struct Mark<'a> {
     /// The shooter.
-    pub own: &'a ShipState,
-    /// The target.
-    pub target: Point,
-    /// What it burns.
-    pub burn: PlannedBurn,
+    own: &'a ShipState,
+    /// The target's way for as long as a bolt lives, a place each [`STEP`].
+    way: Vec<Point>,
 }
 
 /// The direction of the quickest hit; None where no shot is good. Round the hole, too.
 pub fn lead(own: &ShipState, target: &Point, burn: &PlannedBurn) -> Option<Aim> {
-    let mark = Mark { own, target: *target, burn: *burn };
-    mark.hits().into_iter().min_by(|a, b| a.time.total_cmp(&b.time))
+    Mark::new(own, target, burn).hits().into_iter().min_by(|a, b| a.time.total_cmp(&b.time))
 }
 
 impl Mark<'_> {
+    /// A target that is now at `target` and burns so, for a shooter.
+    pub fn new<'a>(own: &'a ShipState, target: &Point, burn: &PlannedBurn) -> Mark<'a> {
+        Mark { own, way: track(*target, burn, Span { step: STEP, count: (LIFE / STEP) as usize }, 1.0) }
+    }
+
     /// The directions that hit, one for each valley of the miss over the plane of shooter, hole and target.
     pub fn hits(&self) -> Vec<Aim> {
+        let fan: Vec<_> = (0..FAN).map(|k| self.tried(k)).collect();
+        valleys(&fan).into_iter().filter_map(|direction| self.refine(direction)).collect()
+    }
+
+    /// A direction of the fan, and by how much its shot misses, in r_s.
+    fn tried(&self, k: usize) -> (DVec3, f64) {
         let inward = -self.own.position.normalize();
-        let straight = self.target.x - self.own.position;
+        let straight = self.way[0].x - self.own.position;
         let side = straight.reject_from(inward).try_normalize().unwrap_or_else(|| inward.any_orthonormal_vector());
-        let fan: Vec<_> = (0..FAN)
-            .map(|k| {
-                let angle = std::f64::consts::TAU * k as f64 / FAN as f64;
-                let direction = inward * angle.cos() + side * angle.sin();
-                (direction, self.shoot(direction).miss.length())
-            })
-            .collect();
-        let valley = |k: &usize| {
-            let [before, here, after] = [k + FAN - 1, *k, k + 1].map(|k| fan[k % FAN].1);
-            here <= before && here < after
-        };
-        (0..FAN).filter(valley).filter_map(|k| self.refine(fan[k].0)).collect()
+        let angle = std::f64::consts::TAU * k as f64 / FAN as f64;
+        let direction = inward * angle.cos() + side * angle.sin();
+        (direction, self.shoot(direction).miss.length())
     }
 
     /// Corrects a direction until its shot is good: Newton's steps over the two angles by which it can turn.
@@ -106,15 +105,13 @@ impl Mark<'_> {
 
     fn shoot(&self, direction: DVec3) -> Trial {
         let mut bolt = Point { x: self.own.position, p: bolt_momentum(self.own.momentum, direction) };
-        let mut target = self.target;
-        let mut best = Trial { miss: target.x - bolt.x, way: STEP, time: 0.0, round: false };
+        let mut best = Trial { miss: self.way[0].x - bolt.x, way: STEP, time: 0.0, round: false };
         let (mut way, mut least) = (0.0, f64::INFINITY);
-        let short = self.own.position.cross(self.target.x);
-        for index in 0..(LIFE / STEP) as usize {
-            let before = [bolt.x, target.x];
+        let short = self.own.position.cross(self.way[0].x);
+        for (index, pair) in self.way.windows(2).enumerate() {
+            let before = bolt.x;
             bolt = advance(&bolt, STEP, 1.0, |_| DVec3::ZERO);
-            target = advance(&target, STEP, 1.0, |at| self.burn.acceleration(at, index as f64 * STEP, STEP));
-            let (from, to) = (before[1] - before[0], target.x - bolt.x);
+            let (from, to) = (pair[0].x - before, pair[1].x - bolt.x);
             let distance = nearest(from, to);
             if distance < least {
                 least = distance;
@@ -122,12 +119,12 @@ impl Mark<'_> {
                 let share = (-from.dot(change) / change.length_squared().max(1e-30)).clamp(0.0, 1.0);
                 best = Trial {
                     miss: from + change * share,
-                    way: way + share * bolt.x.distance(before[0]),
+                    way: way + share * bolt.x.distance(before),
                     time: (index as f64 + share) * STEP,
                     round: self.own.position.cross(direction).dot(short) < 0.0,
                 };
             }
-            way += bolt.x.distance(before[0]);
+            way += bolt.x.distance(before);
             if bolt.x.length_squared() < 1.0 {
                 break;
             }
@@ -136,32 +133,59 @@ impl Mark<'_> {
     }
 }
 
-/// The directions that hit, followed from frame to frame: each is corrected from where it was, and all are looked for anew now and then.
+/// Where the miss of a whole fan is least among its neighbours.
+fn valleys(fan: &[(DVec3, f64)]) -> Vec<DVec3> {
+    let miss = |k: usize| fan[k % fan.len()].1;
+    let is_valley = |k: &usize| miss(*k) <= miss(k + fan.len() - 1) && miss(*k) < miss(k + 1);
+    (0..fan.len()).filter(is_valley).map(|k| fan[k].0).collect()
+}
+
+/// The directions that hit, followed from frame to frame: each is corrected from where it was, and all are looked for anew all the time, a
+/// little in each frame.
 #[derive(Clone, Debug, Default)]
 pub struct AimMarks {
     found: Vec<Aim>,
-    /// Frames until they are looked for anew.
-    wait: u32,
+    /// What of the fan has been tried.
+    fan: Vec<(DVec3, f64)>,
+    /// Valleys of it that are still to be corrected, and those that became hits.
+    valleys: Vec<DVec3>,
+    hits: Vec<Aim>,
+    /// Whether there was a first search, which is made at once.
+    begun: bool,
 }
 
-/// Frames between two searches: half a second of a fast display.
-const SEARCH_EACH: u32 = 30;
+/// Directions of the fan that are tried in a frame.
+const TRIED: usize = 2;
 
 impl AimMarks {
     /// The directions for a shooter and a target that coasts: the quickest straight one, and the quickest round the hole.
     pub fn follow(&mut self, own: &ShipState, target: Point) -> &[Aim] {
-        let mark = Mark { own, target, burn: PlannedBurn::COAST };
-        if self.wait == 0 {
-            let mut hits = mark.hits();
-            hits.sort_by(|a, b| a.time.total_cmp(&b.time));
-            self.found = [false, true].into_iter().filter_map(|round| hits.iter().copied().find(|hit| hit.round == round)).collect();
-            self.wait = SEARCH_EACH;
+        let mark = Mark::new(own, &target, &PlannedBurn::COAST);
+        if !std::mem::replace(&mut self.begun, true) {
+            self.found = quickest(mark.hits());
+            return &self.found;
+        }
+        self.found = self.found.iter().filter_map(|aim| mark.refine(aim.direction)).collect();
+        if let Some(direction) = self.valleys.pop() {
+            self.hits.extend(mark.refine(direction));
+            if self.valleys.is_empty() {
+                self.found = quickest(std::mem::take(&mut self.hits));
+            }
         } else {
-            self.found = self.found.iter().filter_map(|aim| mark.refine(aim.direction)).collect();
-            self.wait -= 1;
+            let next = self.fan.len();
+            self.fan.extend((next..FAN.min(next + TRIED)).map(|k| mark.tried(k)));
+            if self.fan.len() == FAN {
+                self.valleys = valleys(&std::mem::take(&mut self.fan));
+            }
         }
         &self.found
     }
+}
+
+/// The quickest straight one, and the quickest round the hole.
+fn quickest(mut hits: Vec<Aim>) -> Vec<Aim> {
+    hits.sort_by(|a, b| a.time.total_cmp(&b.time));
+    [false, true].into_iter().filter_map(|round| hits.iter().copied().find(|hit| hit.round == round)).collect()
 }
 
 #[cfg(test)]
@@ -175,10 +199,17 @@ mod tests {
         for phase in [2.6, 3.0, 3.4] {
             let own = circular_orbit(8.0, 0.0).expect("a circle");
             let target = circular_orbit(8.0, phase).expect("a circle");
-            let mark = Mark { own: &own, target: Point::from(&target), burn: PlannedBurn::COAST };
-            let hits = mark.hits();
+            let target = Point::from(&target);
+            let hits = Mark::new(&own, &target, &PlannedBurn::COAST).hits();
             println!("{phase}: {hits:?}");
             assert!(hits.iter().any(|hit| hit.round) && hits.iter().any(|hit| !hit.round), "{phase}: {hits:?}");
+            // Looked for a little at a time, they are the same.
+            let mut marks = AimMarks::default();
+            for _ in 0..FAN {
+                assert_eq!(marks.follow(&own, target).len(), 2);
+            }
+            let times = |hits: &[Aim]| hits.iter().map(|hit| hit.time).fold(f64::INFINITY, f64::min);
+            assert!((times(marks.follow(&own, target)) - times(&hits)).abs() < 0.1, "{phase}");
         }
     }
 }
