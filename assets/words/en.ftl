@@ -168,6 +168,7 @@ hud-time-left = TIME LEFT
 hud-goal = GOAL
 hud-goal-of = GOAL { $number } OF { $count }
 hud-turns-done = { $done } of { $whole } rounds
+hud-caught-within = caught within { $reach } r_s of the hunter for { $span } r_s/c
 hud-hold-needs = within { $reach } r_s, for { $span } r_s/c
 hud-match-needs = within { $reach } r_s, { $speed } c against it at most, for { $span } r_s/c
 hud-match-needs-once = within { $reach } r_s, { $speed } c against it at most

@@ -168,6 +168,7 @@ hud-time-left = 残り時間
 hud-goal = 目標
 hud-goal-of = 目標 { $number } / { $count }
 hud-turns-done = { $whole } 周のうち { $done } 周
+hud-caught-within = 追っ手から { $reach } r_s 以内に { $span } r_s/c いるとつかまります
 hud-hold-needs = { $reach } r_s 以内に { $span } r_s/c
 hud-match-needs = { $reach } r_s 以内、標的に対して { $speed } c 以下で { $span } r_s/c
 hud-match-needs-once = { $reach } r_s 以内、標的に対して { $speed } c 以下

@@ -14,6 +14,7 @@ use crate::sim::{Chase, Clock, Engine, Fleet, PlayerCommands, ShipMotion, SimSet
 use crate::spacetime::matter::gamma;
 
 use crate::play::camera::orbit::Orbit;
+use crate::play::choices::Choices;
 use crate::play::hud::notice::Notice;
 use crate::play::hud::panel::Panel;
 use crate::play::input::action::Action;
@@ -23,7 +24,7 @@ use crate::play::input::mouse::MouseTurn;
 use crate::play::input::{ControlsPlugin, PlayerInput};
 use crate::play::menus::MenuModelPlugin;
 use crate::play::menus::entries::{Menu, Page, Touch};
-use crate::play::menus::navigate::choose;
+use crate::play::menus::navigate::{FileConfig, choose};
 use crate::play::menus::screens::{MenuAction, Screen, answer};
 use crate::play::missions::{Catalogue, LastFlight, Watched, begin_log};
 use crate::play::pace::{PacePlugin, Slowing, run_time};
@@ -115,7 +116,21 @@ fn choose_scene(world: &mut World, screen: Screen) {
     let is_other = before != (session.scene.name.clone(), session.scene.fingerprint);
     if is_other {
         change_scene(world);
+        if watched.is_none() {
+            restore_pace(world);
+        }
     }
+}
+
+/// The pace that the last mission was slowed or hurried to is not meant for another: as the settings say.
+fn restore_pace(world: &mut World) {
+    let Some(mut config) = world.get_resource::<FileConfig>().map(|file| file.0.clone()) else { return };
+    if let Some(choices) = world.get_resource::<Choices>() {
+        choices.over(&mut config);
+    }
+    let mut session = world.resource_mut::<Session>();
+    session.config.clock.pace = config.clock.pace;
+    session.put_set();
 }
 
 /// Whether a flight began anew since T was `before` (r_s/c), which becomes `time`.

@@ -72,7 +72,7 @@ pub fn lay_out(painter: &Painter, rect: Rect, top: f32, goals: &Goals, slow: &mu
     Some(TextBox::lay_out(painter, at, Align2::CENTER_TOP, widest, &lines).over_bar(share as f32, OWN))
 }
 
-/// How near a ship must be held or flown with, and for how long, where that is the goal; how much of the way round is done.
+/// How near a ship must be held or flown with, and for how long, where that is the goal; how much of the way round is done; how near a hunter must come.
 fn held_words(language: Language, mission: &Mission, progress: &Progress, rules: &ChaseRules) -> Option<String> {
     let task = &mission.goals.get(progress.goal)?.task;
     let decimals = |value: f64| format!("{value:.2}");
@@ -87,6 +87,10 @@ fn held_words(language: Language, mission: &Mission, progress: &Progress, rules:
             let all = [("reach", reach.as_str()), ("speed", speed.as_str()), ("span", whole.as_str())];
             let key = if span > 0.0 { "hud-match-needs" } else { "hud-match-needs-once" };
             Some(language.fill(key, &all))
+        }
+        GoalTask::Survive { .. } if !mission.caught_by.is_empty() => {
+            let [reach, span] = [rules.0.capture_radius, rules.0.hold_time].map(decimals);
+            Some(language.fill("hud-caught-within", &[("reach", reach.as_str()), ("span", span.as_str())]))
         }
         GoalTask::Whirl { turns, .. } => {
             let [done, whole] = [progress.done, turns].map(decimals);

@@ -124,7 +124,13 @@ fn draw(
         &session,
         &player,
         &read,
-        dials::Going { replayed: playback.is_some(), slowing: slowing.0, by_light: panel.by_light, guidance: panel.guidance, helped },
+        dials::Going {
+            replayed: playback.is_some(),
+            slowing: slowing.0,
+            by_light: panel.by_light,
+            guidance: panel.guidance.filter(|_| panel.reach.is_some()),
+            helped,
+        },
     );
     let rules = rules.0;
     if let Some(chase) = chase.filter(|chase| chase.outcome.is_none()) {
