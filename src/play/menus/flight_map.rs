@@ -20,7 +20,7 @@ pub(super) fn show(ui: &mut Ui, language: Language, ways: &[Mark], moment: Mark)
     let (frame, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
     let (palette, painter) = (Palette::in_use(ui.ctx()), ui.painter_at(frame));
     let [own_colour, target_colour, faint, alarm] = [OWN, TRUE, FAINT, ALARM].map(|colour| palette.shown(colour));
-    let words = |key: &str| language.say(&format!("map-{key}"));
+    let words = |key: &str| language.say(key);
     let sketch = Sketch::new(&painter, frame, &words);
     let plane = Plane::of(ways);
     let own: Vec<DVec2> = ways.iter().map(|mark| plane.place(mark.own)).collect();
@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, language: Language, ways: &[Mark], moment: Mark)
         plot.dashes(&[here, plane.place(there)], 1.4, alarm);
     }
     sketch.disc(plot.at(here), 6.0, Color32::TRANSPARENT, alarm);
-    for (row, (key, colour)) in [("own", own_colour), ("target", target_colour), ("circle", faint)].into_iter().enumerate() {
+    for (row, (key, colour)) in [("map-own", own_colour), ("map-target", target_colour), ("map-circle", faint)].into_iter().enumerate() {
         sketch.label(dvec2(4.0, 10.0 + 17.0 * row as f64), Align2::LEFT_CENTER, key, colour);
     }
     sketch.write(SHEET - dvec2(4.0, 10.0), Align2::RIGHT_CENTER, &format!("T = {:.1}", moment.time), alarm);
