@@ -117,6 +117,9 @@ fn give_hints(
     let session = &now.session;
     let flies = *screen.get() == Screen::Playing && !player.autopilot && playback.is_none() && player.touched;
     let seconds = real.elapsed_secs_f64();
+    if *screen.get() == Screen::Result && notice.until == coach.until {
+        notice.until = 0.0;
+    }
     if !flies || !session.config.interface.coach || notice.until > seconds {
         return;
     }
