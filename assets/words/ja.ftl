@@ -125,7 +125,7 @@ hud-far-clock = 遠くの時計
 hud-far-rate = 遠くの時間は { $rate } 倍で進む
 hud-no-far-clock = 内部：遠くの時計とは比べられない
 hud-from-hole = ブラックホールから
-hud-camera = カメラ { $radius } r_s · { $falls }
+hud-camera = { $falls } · カメラ { $radius } r_s
 hud-falls-to = 最低 { $radius } まで落下
 hud-falls-in = 穴へ落下
 hud-speed = 速さ（静止した観測者から）
@@ -209,7 +209,7 @@ unit-minutes = { $value } 分
 coach-hopeless = 燃料がなく、この軌道ではもう標的に近づけません。{ $button }：同じ始まりでもう一度
 coach-hole = ブラックホールが近い：早めに進む向きへ噴射
 coach-brake = 速すぎて標的で止まれません：表示が消えるまで { $button } を押し続ける
-coach-drift = 横に流れています：左に「アシスト：標的」が出るまで { $button } を押すか、「横流れ」の印を「現在」の輪に重ねる
+coach-drift = 標的のそばを通り過ぎます：左に「アシスト：標的」が出るまで { $button } を押すか、「横流れ」の印を「現在」の輪に重ねる
 coach-fuel = 燃料わずか：落下にまかせ、減速に残す
 lesson-fell = 深く落ちすぎました。r = 3 より内側では軌道に沿った速さだけがたよりです。早めに進む向きへ噴射。
 lesson-passed = { $speed } c 以上で { $times } 回通り過ぎました。{ $from } r_s 手前から減速。

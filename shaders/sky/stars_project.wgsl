@@ -103,7 +103,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             break;
         }
         let is_dim = luminance(colour) * exposure < DIM;
-        let is_left_out = is_dim & (i % DIM_FOR_ONE != 0u);
+        let is_left_out = is_dim & ((u32(cluster.first) + i) % DIM_FOR_ONE != 0u);
         let radius = frame.star_sigma * select(BRIGHT_RADIUS, DIM_RADIUS, is_dim);
         seen_stars[slot] = SeenStar(ndc, select(radius, -radius, is_left_out), min(colour, vec3<f32>(6e4)));
     }

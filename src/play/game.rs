@@ -7,7 +7,7 @@ use bevy_egui::input::EguiWantsInput;
 
 use crate::scene::config;
 use crate::sim::assist::AssistMode;
-use crate::sim::by_hand::choose_pilot;
+use crate::sim::by_hand::{Avoiding, choose_pilot};
 use crate::sim::replay::Playback;
 use crate::sim::ship::Player;
 use crate::sim::{Chase, Clock, Engine, Fleet, PlayerCommands, ShipMotion, SimSet, Turning, board, outcome, start};
@@ -129,14 +129,17 @@ fn restore_pace(world: &mut World) {
         choices.over(&mut config);
     }
     let mut session = world.resource_mut::<Session>();
+    session.put_set_over(&mut config);
     session.config.clock.pace = config.clock.pace;
-    session.put_set();
 }
 
 /// Whether a flight began anew since T was `before` (r_s/c), which becomes `time`.
 pub fn begins_anew(before: &mut f64, time: f64) -> bool {
     std::mem::replace(before, time) > time
 }
+
+/// What the HUD shows of it, where there is one.
+type Screened<'w> = (Option<Res<'w, Panel>>, Option<Res<'w, Avoiding>>, Option<ResMut<'w, Notice>>);
 
 /// Keys that switch something.
 fn read_keys(
@@ -145,7 +148,7 @@ fn read_keys(
     mut session: ResMut<Session>,
     (mut player, mut menu): (ResMut<PlayerState>, ResMut<Menu>),
     (chase, real, turned): (Option<Res<Chase>>, Res<Time<Real>>, Res<AccumulatedMouseMotion>),
-    (panel, notice): (Option<Res<Panel>>, Option<ResMut<Notice>>),
+    (panel, avoiding, notice): Screened,
     (mut actions, mut commands): (MessageWriter<MenuAction>, Commands),
 ) {
     let plays = *screen.get() == Screen::Playing;
@@ -202,7 +205,9 @@ fn read_keys(
         player.hud_off = !player.hud_off;
     }
     let has_target = chase.is_some_and(|chase| chase.quarry.is_some());
-    let brakes = panel.is_some_and(|panel| panel.brakes());
+    // As the HUD says it: other warnings come before it.
+    let says = |panel: &Panel| panel.brakes() && panel.instruments.is_some_and(|read| read.radius >= 1.0);
+    let brakes = !player.autopilot && !avoiding.is_some_and(|avoiding| avoiding.0) && panel.is_some_and(|panel| says(&panel));
     let chosen = hold_assist(&input, &mut player, &session, [has_target, brakes], real.delta_secs_f64());
     if let (Some(mode), Some(mut notice)) = (chosen, notice) {
         let language = session.language();

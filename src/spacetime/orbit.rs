@@ -111,7 +111,9 @@ pub fn lowest_radius(state: &ShipState) -> Option<f64> {
     if r <= 1.0 {
         return None;
     }
-    if outwards && e >= 1.0 {
+    // Far out what is left is E² − 1, so who has that and meets no zero on the way out is gone.
+    let escapes = || (1..1000).map(|k| 1.0 / r * 0.99_f64.powi(k)).all(|u| square(u) >= 0.0);
+    if outwards && e >= 1.0 && escapes() {
         return Some(r);
     }
     let (mut outer, step) = (1.0 / r, 1.01);
@@ -164,5 +166,8 @@ mod tests {
         assert_eq!(lowest_radius(&rain), None);
         let away = ShipState::new(DVec3::X * 6.0, DVec3::X * 3.0);
         assert_eq!(lowest_radius(&away), Some(6.0));
+        // Outwards from within the barrier of a great L, not over it: it turns and falls in.
+        let outward = momentum_from_constants(1.1, 2.6, 1.2, 0.5, DVec3::X, DVec3::Y);
+        assert_eq!(lowest_radius(&ShipState::new(DVec3::X * 1.2, outward)), None);
     }
 }

@@ -146,7 +146,9 @@ fn is_due(hint: Hint, panel: &Panel, mode: AssistMode, hopeless: bool, inside: b
         Hint::Hole => !inside && read.radius < NEAR_HOLE && target.is_some(),
         Hint::Brake => target.is_some_and(|(guide, _)| guide.brake == Brake::Now),
         Hint::Drift => {
-            let drifts = |(guide, reach): (Guidance, f64)| guide.sideways() > DRIFT.0 && guide.apart.length() < DRIFT.1 * reach;
+            let drifts = |(guide, reach): (Guidance, f64)| {
+                guide.brake != Brake::Now && guide.sideways() > DRIFT.0 && guide.apart.length() < DRIFT.1 * reach
+            };
             mode != AssistMode::Target && target.is_some_and(drifts)
         }
         Hint::Fuel => read.fuel.is_some_and(|share| share > 0.0 && share < LOW_FUEL),

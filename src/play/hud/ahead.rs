@@ -13,9 +13,9 @@ use crate::spacetime::light::Order;
 use crate::spacetime::matter::ShipState;
 
 /// How far ahead a course is shown, in r_s/c, and in how many pieces.
-const COURSE: (f64, usize) = (24.0, 32);
+const COURSE: (f64, usize) = (24.0, 24);
 /// The same for a bolt: as long as it flies.
-const SHOT: (f64, usize) = (LIFE, 48);
+const SHOT: (f64, usize) = (LIFE, 32);
 
 /// Directions in camera axes, one after the other; None where a place is not seen.
 pub type AheadLine = Vec<Option<DVec3>>;
@@ -58,7 +58,7 @@ pub fn pass(camera: &Observer, own: &ShipState, target: &Point) -> Option<Pass> 
 /// How near a bolt fired now comes to a target that coasts, in r_s.
 pub fn shot_passes(own: &ShipState, target: &Point) -> f64 {
     /// T of a piece, in r_s/c; between its ends both fly straight.
-    const STEP: f64 = 0.25;
+    const STEP: f64 = 0.5;
     let mut bolt = Point::from(&fired_by(own));
     let mut other = *target;
     let mut nearest = f64::INFINITY;

@@ -10,7 +10,7 @@ use crate::play::hud::{BETWEEN, MARGIN};
 use crate::play::player_state::{PlayerState, assist_words};
 use crate::play::session::Session;
 use crate::scene::pilot_kind::PilotKind;
-use crate::sim::guidance::Guidance;
+use crate::sim::guidance::{Brake, Guidance};
 
 /// Fuel is low below this share of a full tank.
 pub const LOW_FUEL: f64 = 0.15;
@@ -142,7 +142,9 @@ const AWAY: f64 = -0.05;
 fn target(scale: &Scale, read: &Bearing, going: Going) -> Vec<Line> {
     let language = scale.language;
     // Away from it is not well either.
-    let closing = going.guidance.map_or(TEXT, |guide| if guide.closing() < AWAY { TRUE } else { brake_colour(guide.brake) });
+    let closing = going
+        .guidance
+        .map_or(TEXT, |guide| if guide.brake != Brake::Now && guide.closing() < AWAY { TRUE } else { brake_colour(guide.brake) });
     let mut lines = vec![
         (Density::Reduced, language.say(if going.by_light { "hud-range-seen" } else { "hud-range" }), 11.0, FAINT),
         (Density::Least, format!("{:.2} r_s", read.range), 26.0, TEXT),

@@ -92,7 +92,7 @@ pub(in crate::play) fn read_panel(
     windows: Query<&Window, With<PrimaryWindow>>,
     player: Res<PlayerState>,
     mut panel: ResMut<Panel>,
-    mut aimed: Local<AimMarks>,
+    (mut aimed, mut aimed_at): (Local<AimMarks>, Local<f64>),
 ) {
     let (Some(FrameCamera { camera, .. }), Some((history, engine, controls, fuel))) = (shot.0, now.own()) else { return };
     let time = now.time();
@@ -130,6 +130,10 @@ pub(in crate::play) fn read_panel(
     let known = target.filter(|_| is_own).and_then(|history| known(&state, time, history, marked_now));
     let reach = now.reach();
     let guidance = known.map(|known| guidance(&Point::from(&state), &known.point, engine.max_thrust, reach.unwrap_or(0.0)));
+    // What was aimed at in another flight is no guide.
+    if std::mem::replace(&mut *aimed_at, time) > time || known.is_none() {
+        *aimed = AimMarks::default();
+    }
     let aims = match gun.filter(|gun| gun.left > 0).zip(known) {
         Some((_, known)) => aimed.follow(&state, known.point).iter().map(|aim| (to_camera * aim.direction, aim.time)).collect(),
         None => Vec::new(),

@@ -291,7 +291,6 @@ impl GoalEntry {
             ("radius", at(&self.radius)),
             ("distance", at(&self.distance)),
             ("speed", at(&self.speed)),
-            ("distance", at(&self.distance)),
             ("times", at(&self.times)),
             ("until", at(&self.until)),
             ("turns", at(&self.turns)),

@@ -154,9 +154,6 @@ pub struct AimMarks {
     begun: bool,
 }
 
-/// Directions of the fan that are tried in a frame.
-const TRIED: usize = 2;
-
 impl AimMarks {
     /// The directions for a shooter and a target that coasts: the quickest straight one, and the quickest round the hole.
     pub fn follow(&mut self, own: &ShipState, target: Point) -> &[Aim] {
@@ -169,11 +166,12 @@ impl AimMarks {
         if let Some(direction) = self.valleys.pop() {
             self.hits.extend(mark.refine(direction));
             if self.valleys.is_empty() {
+                // What was followed may lie between two directions of the fan.
+                self.hits.extend(&self.found);
                 self.found = quickest(std::mem::take(&mut self.hits));
             }
         } else {
-            let next = self.fan.len();
-            self.fan.extend((next..FAN.min(next + TRIED)).map(|k| mark.tried(k)));
+            self.fan.push(mark.tried(self.fan.len()));
             if self.fan.len() == FAN {
                 self.valleys = valleys(&std::mem::take(&mut self.fan));
             }
