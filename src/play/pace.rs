@@ -100,13 +100,17 @@ pub(in crate::play) fn run_time(
     mut time: ResMut<Time<Virtual>>,
     mut fixed: ResMut<Time<Fixed>>,
 ) {
+    let leaving = matches!(*next, NextState::Pending(next) if !next.runs());
+    if !screen.get().runs() || leaving || loading.is_some() || freeze.on {
+        // Nor does the step change: of a shorter one there would be some left to be flown.
+        time.pause();
+        return;
+    }
     let clock = &session.config.clock;
     let step = clock.step / (clock.pace * slowing.0);
     fixed.set_timestep_seconds(step);
     time.set_max_delta(Duration::from_secs_f64((step * f64::from(clock.max_steps)).clamp(0.01, 0.5)));
-    let leaving = matches!(*next, NextState::Pending(next) if !next.runs());
-    let flows = screen.get().runs() && !leaving && loading.is_none() && !freeze.on;
-    if flows { time.unpause() } else { time.pause() }
+    time.unpause();
 }
 
 /// The share of the pace with danger `ahead`, in r_s/c of T.
