@@ -1,13 +1,8 @@
 //! The game without its window: screens, keys, time, and the player's commands to the ship. Runs in a minimal app, for tests.
 
-use crate::play::player_state::{Flown, PlayerState, TAP, assist_words};
-use bevy::input::mouse::AccumulatedMouseMotion;
 use bevy::prelude::*;
-use bevy_egui::input::EguiWantsInput;
 
-use crate::scene::config;
-use crate::sim::assist::AssistMode;
-use crate::sim::by_hand::{Avoiding, choose_pilot};
+use crate::sim::by_hand::choose_pilot;
 use crate::sim::replay::Playback;
 use crate::sim::ship::Player;
 use crate::sim::{Chase, Clock, Engine, Fleet, PlayerCommands, ShipMotion, SimSet, Turning, board, outcome, start};
@@ -15,24 +10,22 @@ use crate::spacetime::matter::gamma;
 
 use crate::play::camera::orbit::Orbit;
 use crate::play::choices::Choices;
-use crate::play::hud::notice::Notice;
-use crate::play::hud::panel::Panel;
 use crate::play::input::action::Action;
 use crate::play::input::gaze::Gaze;
 use crate::play::input::lead::lead_camera;
 use crate::play::input::mouse::MouseTurn;
 use crate::play::input::{ControlsPlugin, PlayerInput};
 use crate::play::menus::MenuModelPlugin;
-use crate::play::menus::entries::{Menu, Page, Touch};
-use crate::play::menus::navigate::{FileConfig, choose};
+use crate::play::menus::navigate::FileConfig;
 use crate::play::menus::screens::{MenuAction, Screen, answer};
 use crate::play::missions::{Catalogue, LastFlight, Watched, begin_log};
 use crate::play::pace::{PacePlugin, Slowing, run_time};
 use crate::play::photo::PhotoPlugin;
 use crate::play::picture::stage_loading::change_scene;
+use crate::play::player_state::{Flown, PlayerState};
 use crate::play::schedule::{self, GameSet};
 use crate::play::session::Session;
-use crate::play::window::record;
+use crate::play::switches::read_keys;
 
 /// Screens, input and time: all of the game that needs no window. Needs [`SimulationPlugins`](crate::sim::SimulationPlugins), [`Session`]
 /// and [`PlayerState`].
@@ -129,133 +122,16 @@ fn restore_pace(world: &mut World) {
         choices.over(&mut config);
     }
     let mut session = world.resource_mut::<Session>();
-    session.put_set_over(&mut config);
-    session.config.clock.pace = config.clock.pace;
+    let played = std::mem::replace(&mut session.config, config);
+    session.put_set();
+    let pace = session.config.clock.pace;
+    session.config = played;
+    session.config.clock.pace = pace;
 }
 
 /// Whether a flight began anew since T was `before` (r_s/c), which becomes `time`.
 pub fn begins_anew(before: &mut f64, time: f64) -> bool {
     std::mem::replace(before, time) > time
-}
-
-/// What the HUD shows of it, where there is one.
-type Screened<'w> = (Option<Res<'w, Panel>>, Option<Res<'w, Avoiding>>, Option<ResMut<'w, Notice>>);
-
-/// Keys that switch something.
-fn read_keys(
-    input: PlayerInput,
-    (screen, typing): (Res<State<Screen>>, Option<Res<EguiWantsInput>>),
-    mut session: ResMut<Session>,
-    (mut player, mut menu): (ResMut<PlayerState>, ResMut<Menu>),
-    (chase, real, turned): (Option<Res<Chase>>, Res<Time<Real>>, Res<AccumulatedMouseMotion>),
-    (panel, avoiding, notice): Screened,
-    (mut actions, mut commands): (MessageWriter<MenuAction>, Commands),
-) {
-    let plays = *screen.get() == Screen::Playing;
-    if input.pushed(Action::ToggleOverlay) {
-        player.overlay = !player.overlay;
-    }
-    let typing = typing.is_some_and(|typing| typing.wants_keyboard_input()) || menu.awaits.is_some();
-    player.looking = plays && !typing && input.holds(Action::LookAtTarget);
-    player.fired |= plays && !typing && input.pushed(Action::Fire);
-    if typing {
-        return;
-    }
-    if input.pushed(Action::Screenshot) {
-        commands.queue(record::screenshot);
-    }
-    for (action, path) in [(Action::ToggleFullScreen, "video.fullscreen"), (Action::Mute, "sound.mute_master")] {
-        if input.pushed(action) {
-            commands.queue(move |world: &mut World| toggle(world, path));
-        }
-    }
-    let flown = matches!(screen.get(), Screen::Playing | Screen::Paused | Screen::Result);
-    if input.pushed(Action::Restart) && flown && menu.page().is_none() {
-        actions.write(MenuAction::Again);
-    }
-    if input.pushed(Action::WhatAmISeeing) {
-        match (screen.get(), menu.page()) {
-            (_, Some(Page::Seeing)) => menu.touched.push(Touch::Back),
-            (Screen::Playing, _) => {
-                player.seeing_from_play = true;
-                menu.open(Page::Seeing);
-                actions.write(MenuAction::Pause);
-            }
-            (Screen::Paused, None) => {
-                player.seeing_from_play = false;
-                menu.open(Page::Seeing);
-            }
-            _ => (),
-        }
-    }
-    if !plays {
-        return;
-    }
-    if input.pushed(Action::Pause) {
-        actions.write(MenuAction::Pause);
-    }
-    if input.pushed(Action::PhotoMode) {
-        actions.write(MenuAction::Photo);
-    }
-    if input.pushed(Action::ToggleCamera) {
-        player.view = player.view.toggled();
-        player.follower.reset();
-    }
-    if input.pushed(Action::ToggleHud) {
-        player.hud_off = !player.hud_off;
-    }
-    let has_target = chase.is_some_and(|chase| chase.quarry.is_some());
-    // As the HUD says it: other warnings come before it.
-    let says = |panel: &Panel| panel.brakes() && panel.instruments.is_some_and(|read| read.radius >= 1.0);
-    let brakes = !player.autopilot && !avoiding.is_some_and(|avoiding| avoiding.0) && panel.is_some_and(|panel| says(&panel));
-    let chosen = hold_assist(&input, &mut player, &session, [has_target, brakes], real.delta_secs_f64());
-    if let (Some(mode), Some(mut notice)) = (chosen, notice) {
-        let language = session.language();
-        let [now, next] = [mode, mode.next(has_target)].map(|mode| language.say(assist_words(mode)));
-        let text = language.fill("hud-assist-chosen", &[("now", now.as_str()), ("next", next.as_str())]);
-        *notice = Notice { text, until: real.elapsed_secs_f64() + CHOSEN, share: None };
-    }
-    let begins = input.stick().thrust != glam::DVec3::ZERO || input.holds(Action::LookAtTarget) || input.holds(Action::ToggleAutopilot);
-    player.begun |= player.pilot.is_some() || begins;
-    player.touched |= begins || input.stick().turn != glam::DVec3::ZERO || turned.delta.length() > 0.0;
-    if input.pushed(Action::ToggleAutopilot) {
-        player.autopilot = !player.autopilot;
-    }
-    let faster = f64::from(i8::from(input.pushed(Action::Faster)) - i8::from(input.pushed(Action::Slower)));
-    if faster != 0.0 {
-        let pace = session.config.clock.pace * faster.exp2();
-        session.config.clock.pace = pace.clamp(0.05, 24.0);
-    }
-}
-
-/// The assist's key: a tap chooses what it holds to, which is returned; held it matches the target's motion. `seconds` of wall time have
-/// passed. `brakes`: the sign to brake is shown, and a tap is meant for it.
-fn hold_assist(
-    input: &PlayerInput,
-    player: &mut PlayerState,
-    session: &Session,
-    [has_target, brakes]: [bool; 2],
-    seconds: f64,
-) -> Option<AssistMode> {
-    let held = input.holds(Action::ToggleAssist);
-    let pushed = input.pushed(Action::ToggleAssist);
-    let before = player.assist_held;
-    player.assist_held = held.then(|| before.map_or(0.0, |before| before + seconds));
-    // A short press may begin and end within a frame.
-    let tapped = !held && before.map_or(pushed, |before| before < TAP);
-    let chosen = (tapped && !brakes).then(|| player.assisted(&session.config).next(has_target));
-    player.assist = chosen.or(player.assist);
-    chosen
-}
-
-/// How long it is said what the assist holds to, in seconds of wall time.
-const CHOSEN: f64 = 2.5;
-
-/// Switches a setting that is kept.
-fn toggle(world: &mut World, path: &str) {
-    let Some(setting) = config::setting(path) else { return };
-    let on = setting.get(&world.resource::<Session>().config) == config::Value::Switch(true);
-    choose(world, setting, config::Value::Switch(!on));
 }
 
 fn answer_menus(world: &mut World) {

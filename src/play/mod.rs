@@ -27,6 +27,7 @@ pub mod records;
 pub mod schedule;
 pub mod session;
 pub mod sound;
+mod switches;
 pub mod tour;
 pub mod trailer;
 pub mod window;

@@ -71,11 +71,6 @@ impl Session {
         self.set.iter().for_each(|one| one.apply(&mut self.config));
     }
 
-    /// The same over another configuration.
-    pub fn put_set_over(&self, config: &mut GameConfig) {
-        self.set.iter().for_each(|one| one.apply(config));
-    }
-
     /// The language of all words.
     pub fn language(&self) -> Language {
         Language::of(&self.config.interface.language)

@@ -230,12 +230,15 @@ pub fn came_out_of_the_hole(state: &ShipState) -> bool {
     if rising < AT_REST * g && steepness < AT_REST {
         return false;
     }
-    let peak = squared - (squared * (squared - 3.0).max(0.0)).sqrt();
-    if squared <= 3.0 || r <= peak {
-        return true;
-    }
+    let Some([_, height]) = barrier(squared).filter(|[peak, _]| r > *peak) else { return true };
     let e = energy(state);
-    e * e > (1.0 - 1.0 / peak) * (1.0 + squared / (peak * peak))
+    e * e > height
+}
+
+/// The barrier of V for L² = `squared` (r_s²c²): the radius of its peak, in r_s, and V there; None where there is none.
+pub fn barrier(squared: f64) -> Option<[f64; 2]> {
+    let peak = squared - (squared * (squared - 3.0).max(0.0)).sqrt();
+    (squared > 3.0).then(|| [peak, (1.0 - 1.0 / peak) * (1.0 + squared / (peak * peak))])
 }
 
 /// Energy per mass E = −u·∂_T = γ − βn·p, constant without thrust.

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::matter::{ShipState, angular_momentum, energy, gamma};
+use super::matter::{ShipState, angular_momentum, barrier, energy, gamma};
 use super::metric::river_speed;
 
 /// Where an orbit lies and where on it the ship is. All angles in radians.
@@ -111,9 +111,8 @@ pub fn lowest_radius(state: &ShipState) -> Option<f64> {
     if r <= 1.0 {
         return None;
     }
-    // Far out what is left is E² − 1, so who has that and meets no zero on the way out is gone.
-    let escapes = || (1..1000).map(|k| 1.0 / r * 0.99_f64.powi(k)).all(|u| square(u) >= 0.0);
-    if outwards && e >= 1.0 && escapes() {
+    // Within the barrier it may turn back.
+    if outwards && e >= 1.0 && barrier(l * l).is_none_or(|[peak, height]| r >= peak || e * e > height) {
         return Some(r);
     }
     let (mut outer, step) = (1.0 / r, 1.01);

@@ -171,7 +171,7 @@ fn draw(
     }
     let edge =
         mission.as_ref().zip(progress.as_ref()).is_some_and(|(mission, progress)| goals::near_edge(&mission.0, progress, read.radius));
-    let warned = Warned { avoiding: avoiding.0, brake: panel.brakes() && !player.autopilot, edge, radius: read.radius };
+    let warned = Warned { avoiding: avoiding.0, brake: panel.says_brake(player.autopilot, avoiding.0), edge, radius: read.radius };
     let button = words::buttons::of(language, &bindings, *device, Action::ToggleAssist);
     taken.panels.extend(warnings(&painter, rect, &warned, &button, language));
     markers::paint(&painter, rect, &panel, taken, language);

@@ -71,9 +71,10 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// Whether the sign to brake is to be shown.
-    pub fn brakes(&self) -> bool {
-        self.guidance.is_some_and(|guide| guide.brake == Brake::Now) && self.reach.is_some()
+    /// Whether the sign to brake is shown: to who flies by hand, where no other warning comes before it.
+    pub fn says_brake(&self, autopilot: bool, avoiding: bool) -> bool {
+        let is_due = self.guidance.is_some_and(|guide| guide.brake == Brake::Now) && self.reach.is_some();
+        is_due && !autopilot && !avoiding && self.instruments.is_some_and(|read| read.radius >= 1.0)
     }
 }
 

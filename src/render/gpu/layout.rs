@@ -148,6 +148,16 @@ pub fn buffer(device: &wgpu::Device, label: &str, size: u64, usage: BufferUsages
     }))
 }
 
+/// A sampler between texels, clamped at the edges.
+pub fn linear_sampler(device: &wgpu::Device) -> wgpu::Sampler {
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("linear"),
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        ..Default::default()
+    })
+}
+
 /// A storage buffer filled with `data`.
 pub fn storage<T: bytemuck::Pod>(gpu: &crate::render::Gpu, label: &str, data: &[T]) -> Buffer {
     let bytes: &[u8] = bytemuck::cast_slice(data);

@@ -8,7 +8,7 @@ use wgpu::ShaderStages;
 
 use crate::render::Gpu;
 use crate::render::geometry::thin::{ThinLists, tiles_layout};
-use crate::render::gpu::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, new_texture, raster};
+use crate::render::gpu::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, linear_sampler, module, new_texture, raster};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::{Targets, tiles};
 use crate::render::gpu::types::Adaptation;
@@ -120,12 +120,7 @@ impl PostProcess {
             find_outlines: compute(device, "outlines", Pass::Outlines, "main", &[Some(frame_layout), None, Some(&outlines_layout)]),
             smooth: pass("smooth", Pass::Smooth, "fragment", &smooth_layout, output, None),
             output,
-            sampler: device.create_sampler(&wgpu::SamplerDescriptor {
-                label: Some("linear"),
-                mag_filter: wgpu::FilterMode::Linear,
-                min_filter: wgpu::FilterMode::Linear,
-                ..Default::default()
-            }),
+            sampler: linear_sampler(device),
             flashes: Flashes::new(device, frame_layout),
             adapted: buffer(device, "adapted", size_of::<Adaptation>() as u64, wgpu::BufferUsages::UNIFORM),
             thin_layout,

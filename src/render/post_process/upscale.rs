@@ -5,7 +5,7 @@ use wgpu::BindingResource::TextureView;
 use wgpu::ShaderStages;
 
 use crate::render::geometry::Geometry;
-use crate::render::gpu::layout::{MASK_FORMAT, Raster, Slot, bind, layout, module, raster};
+use crate::render::gpu::layout::{MASK_FORMAT, Raster, Slot, bind, layout, linear_sampler, module, raster};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::{Targets, target};
 use crate::render::passes::{Recording, colour};
@@ -58,12 +58,7 @@ impl Upscale {
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(format, None)], depth: None };
         let shader = module(device, "own outline", Pass::OwnOutline);
         let outline = raster(device, "own outline", &shader, stage, &[Some(frame_layout), None, Some(&outline_layout)]);
-        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("linear"),
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            ..Default::default()
-        });
+        let sampler = linear_sampler(device);
         let stars_layout = self::layout(device, "stars over", ShaderStages::VERTEX_FRAGMENT, &[Slot::Numbers, Slot::Uniform]);
         let blend = onto(wgpu::BlendFactor::One, wgpu::BlendFactor::OneMinusSrcAlpha);
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(format, Some(blend))], depth: None };
