@@ -2,9 +2,12 @@
 
 use bevy::prelude::*;
 
+use crate::sim::assist::AssistMode;
 use crate::sim::by_hand::choose_pilot;
+use crate::sim::pilot::steer::turn_nose;
 use crate::sim::replay::Playback;
 use crate::sim::ship::Player;
+use crate::sim::target::Targets;
 use crate::sim::{Chase, Clock, Engine, Fleet, PlayerCommands, ShipMotion, SimSet, Turning, board, outcome, start};
 use crate::spacetime::matter::gamma;
 
@@ -75,6 +78,7 @@ pub fn begin(world: &mut World, screen: Screen) {
     player.assist_held = None;
     player.touched = false;
     player.fired = false;
+    player.facing = false;
     *world.resource_mut::<MouseTurn>() = MouseTurn::default();
     if let Some(pilot) = pilot {
         board(world, pilot);
@@ -198,17 +202,25 @@ fn read_commands(
     input: PlayerInput,
     clock: Res<Clock>,
     (session, slowing): (Res<Session>, Res<Slowing>),
-    mut player: ResMut<PlayerState>,
-    mut turn: ResMut<MouseTurn>,
+    (mut player, mut turn): (ResMut<PlayerState>, ResMut<MouseTurn>),
     mut commands: ResMut<PlayerCommands>,
-    ships: Query<(&ShipMotion, &Engine, &Turning), With<Player>>,
+    targets: Targets,
+    ships: Query<(Entity, &ShipMotion, &Engine, &Turning), With<Player>>,
 ) {
     let mut stick = input.stick();
-    for (motion, engine, turning) in &ships {
+    for (ship, motion, engine, turning) in &ships {
+        let mark = player.facing.then(|| targets.mark(ship, &motion.0, clock.time, engine.max_thrust)).flatten();
+        if let Some(mark) = mark {
+            // Whoever asks for the mark does not steer aside.
+            turn.take();
+            stick.turn = turn_nose(mark, 1.0).with_z(stick.turn.z);
+            continue;
+        }
         stick.turn = turn.pull(stick.turn, engine, turning.0, clock.step / gamma(motion.0.momentum));
     }
     *commands = PlayerCommands {
-        assist: player.assisted(&session.config),
+        // What leads to the target is a fall: the assist would fly another way.
+        assist: if player.facing && !player.matching() { AssistMode::Off } else { player.assisted(&session.config) },
         matching: player.matching(),
         autopilot: player.autopilot,
         looking: player.looking,
@@ -223,7 +235,6 @@ pub(in crate::play) mod tests {
     use super::*;
     use crate::play::input::tests::press_key;
     use crate::play::overlay::live::LivePlugin;
-    use crate::sim::assist::AssistMode;
     use crate::sim::{Outcome, SimulationPlugins};
     use bevy::input::{ButtonState, InputPlugin};
     use bevy::state::app::StatesPlugin;

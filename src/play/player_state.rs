@@ -42,6 +42,8 @@ pub struct PlayerState {
     pub hinted: f64,
     /// The key that turns the camera to the target is held.
     pub looking: bool,
+    /// The key that turns the nose to where thrust leads to the target is held.
+    pub facing: bool,
     /// The trigger was pulled since the last step: a click may be shorter than a frame.
     pub fired: bool,
     /// Which mission is chosen on the title.

@@ -38,6 +38,7 @@ pub(in crate::play) fn read_keys(
     }
     let typing = typing.is_some_and(|typing| typing.wants_keyboard_input()) || menu.awaits.is_some();
     player.looking = plays && !typing && input.holds(Action::LookAtTarget);
+    player.facing = plays && !typing && input.holds(Action::FaceTarget);
     player.fired |= plays && !typing && input.pushed(Action::Fire);
     if typing {
         return;
@@ -94,7 +95,10 @@ pub(in crate::play) fn read_keys(
         let text = language.fill("hud-assist-chosen", &[("now", now.as_str()), ("next", next.as_str())]);
         *notice = Notice { text, until: real.elapsed_secs_f64() + CHOSEN, share: None };
     }
-    let begins = input.stick().thrust != glam::DVec3::ZERO || input.holds(Action::LookAtTarget) || input.holds(Action::ToggleAutopilot);
+    let begins = input.stick().thrust != glam::DVec3::ZERO
+        || player.facing
+        || input.holds(Action::LookAtTarget)
+        || input.holds(Action::ToggleAutopilot);
     player.begun |= player.pilot.is_some() || begins;
     player.touched |= begins || input.stick().turn != glam::DVec3::ZERO || turned.delta.length() > 0.0;
     if input.pushed(Action::ToggleAutopilot) {

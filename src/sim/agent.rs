@@ -10,9 +10,11 @@ use serde::{Deserialize, Serialize};
 use super::assist::{AssistMode, Stick};
 use super::bolts::Gun;
 use super::by_hand::Avoiding;
-use super::goals::{ActiveMission, Progress, catch_radius, needed};
+use super::goals::{ActiveMission, Progress, needed};
 use super::guidance::{approach, guidance};
 use super::history::History;
+use super::intercept::Intercept;
+use super::pilot::aim::shot_passes;
 use super::pilot::rollout::Point;
 use super::player_commands::{ManualControl, PlayerCommands};
 use super::replay::{Replay, ReplayLog};
@@ -110,8 +112,12 @@ struct TargetSeen {
     brake: &'static str,
     /// How near both pass if they coast, r_s, and in which time, r_s/c; null if they part.
     pass: Option<[f64; 2]>,
-    /// Within this it is caught, r_s; null where the goal is another.
+    /// Within this it is caught or flown through, r_s; null where the goal is another.
     reach: Option<f64>,
+    /// The change of velocity now, on rest-frame axes, c, after which the fall leads there; null where it does already, or none does.
+    push: Option<DVec3>,
+    /// How near a bolt fired now comes to it, r_s; null without bolts.
+    bolt: Option<f64>,
 }
 
 /// Another ship, as far as is known of it.
@@ -140,6 +146,10 @@ struct GoalSeen {
     gate: Option<DVec3>,
     /// Radii between which it is to be done, r_s; null where it names none.
     radius: Option<[f64; 2]>,
+    /// The fastest that counts against the target, c; null where it does not matter.
+    speed: Option<f64>,
+    /// Within which distance, r_s, and time, r_s/c, a hunter catches the ship; null where nobody does.
+    caught: Option<[f64; 2]>,
     /// How much of it is all, in its unit: of a hold r_s/c.
     needs: f64,
 }
@@ -320,8 +330,7 @@ fn see(world: &World, own: &ShipState, ship: Entity, sees: Sees) -> Option<Seen>
 /// Motion against what the present goal is about.
 fn target_seen(world: &mut World, own: Entity, state: &ShipState) -> Option<TargetSeen> {
     let time = world.resource::<Clock>().time;
-    let known = world.run_system_cached_with(known_target, (own, *state, time)).ok().flatten()?;
-    let reach = catch_radius(world.get_resource::<ActiveMission>(), world.get_resource::<Progress>(), world.resource::<ChaseRules>());
+    let (known, reach, advice) = world.run_system_cached_with(known_target, (own, *state, time)).ok().flatten()?;
     let thrust = world.get::<Engine>(own)?.max_thrust;
     let point = Point::from(state);
     let guide = guidance(&point, &known.point, thrust, reach.unwrap_or(0.0));
@@ -333,13 +342,20 @@ fn target_seen(world: &mut World, own: Entity, state: &ShipState) -> Option<Targ
         sideways: guide.sideways(),
         stopping: guide.stopping,
         brake: ["free", "soon", "now"][guide.brake as usize],
-        pass: approach(&point, &known.point).map(|near| [near.distance, near.ahead]),
+        pass: approach(&point, &known).map(|near| [near.distance, near.ahead]),
         reach,
+        push: advice.map(|advice| advice.push),
+        bolt: world.get::<Gun>(own).filter(|gun| gun.left > 0).map(|_| shot_passes(state, &known.point)),
     })
 }
 
-fn known_target(In((own, state, time)): In<(Entity, ShipState, f64)>, targets: Targets) -> Option<Known> {
-    targets.known(own, &state, time)
+/// What is known of the target, how near it must be, and where to thrust.
+type TargetKnown = (Known, Option<f64>, Option<Intercept>);
+
+fn known_target(In((own, state, time)): In<(Entity, ShipState, f64)>, targets: Targets, engines: Query<&Engine>) -> Option<TargetKnown> {
+    let known = targets.known(own, &state, time)?;
+    let thrust = engines.get(own).ok()?.max_thrust;
+    Some((known, targets.reach(own), targets.advice(own, &state, &known, thrust)))
 }
 
 fn goal(world: &World) -> Option<GoalSeen> {
@@ -357,6 +373,10 @@ fn goal(world: &World) -> Option<GoalSeen> {
             }
             _ => None,
         },
+        speed: if let GoalTask::Match { speed, .. } = goal.task { Some(speed) } else { None },
+        caught: (!mission.caught_by.is_empty())
+            .then(|| world.resource::<ChaseRules>().0)
+            .map(|rules| [rules.capture_radius, rules.hold_time]),
         needs: needed(&goal.task, mission, world.resource::<ChaseRules>()),
     })
 }
@@ -395,6 +415,7 @@ mod tests {
         let target = &lines[0]["target"];
         assert!(target["brake"] == "free" && target["range"].as_f64().is_some_and(|range| range > 3.0), "{target}");
         assert_eq!([&target["reach"], &lines[0]["goal"]["needs"], &lines[0]["time_limit"]], [0.7, 3.0, 270.0]);
+        assert_eq!([&target["bolt"], &lines[0]["goal"]["speed"], &lines[0]["goal"]["caught"]], [&serde_json::Value::Null; 3]);
         assert_eq!(flown("", 5.0).expect("a flight").len(), 1, "nothing more is asked for");
     }
 

@@ -2,8 +2,11 @@
 
 use glam::DVec3;
 
+use super::assist::{Reference, drift};
 use super::bolts::nearest;
 use super::pilot::rollout::{Point, advance};
+use super::target::Known;
+use crate::spacetime::matter::ShipState;
 
 /// Motion of a ship against its target, on the slice T = const.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,15 +46,50 @@ const SLOW: f64 = 0.02;
 /// not brake.
 const SHORT: (f64, f64) = (0.5, 0.5);
 
-/// The guidance of a ship with an engine of `thrust` (c²/r_s) to a target that is caught within `reach` (r_s).
+/// The braking is flown ahead in so many steps, if space were flat.
+const BRAKING_STEPS: f64 = 8.0;
+/// Steps longer than this, in r_s/c, tell nothing of the fall: weak engines, high speeds.
+const COARSE: f64 = 2.0;
+/// It may last so many times as long as there: where the fall helps no engine, no stop is found.
+const LONGEST: f64 = 2.0;
+
+/// The way along their motion (r_s) in which an engine of `thrust` (c²/r_s) takes away the motion of `own` against a target that falls on.
 ///
-/// In the target's frame a ship of speed v and proper acceleration a stops within (γ − 1)/a; tides over that way are left out.
+/// In the target's frame a ship of speed v and proper acceleration a stops within (γ − 1)/a. What the fall adds on that way is flown.
+fn stopping(own: &Point, target: &Point, thrust: f64) -> f64 {
+    let velocity = own.velocity() - target.velocity();
+    let Some(along) = velocity.try_normalize() else { return 0.0 };
+    let speed = velocity.length().min(0.999);
+    let gamma = (1.0 - speed * speed).sqrt().recip();
+    let flat = (gamma - 1.0) / thrust.max(1e-9);
+    let step = gamma * speed / thrust.max(1e-9) / BRAKING_STEPS;
+    if step > COARSE {
+        return flat;
+    }
+    let (mut own_then, mut target_then, mut before) = (*own, *target, speed);
+    for _ in 0..(LONGEST * BRAKING_STEPS) as usize {
+        let rest = target_then.velocity();
+        let brakes = |at: &Point| drift(&ShipState::new(at.x, at.p), Reference::Target(rest)).normalize_or_zero() * -thrust;
+        let apart = own_then.x - target_then.x;
+        [own_then, target_then] = [advance(&own_then, step, 1.0, brakes), advance(&target_then, step, 1.0, |_| DVec3::ZERO)];
+        let left = (own_then.velocity() - target_then.velocity()).dot(along);
+        if left <= 0.0 {
+            // It stops within this step.
+            let share = before / (before - left).max(1e-9);
+            let stopped = apart.lerp(own_then.x - target_then.x, share);
+            return (stopped - (own.x - target.x)).dot(along).max(0.0);
+        }
+        before = left;
+    }
+    LONGEST * flat
+}
+
+/// The guidance of a ship with an engine of `thrust` (c²/r_s) to a target that is caught within `reach` (r_s).
 pub fn guidance(own: &Point, target: &Point, thrust: f64, reach: f64) -> Guidance {
     let apart = target.x - own.x;
     let velocity = own.velocity() - target.velocity();
     let speed = velocity.length().min(0.999);
-    let gamma = (1.0 - speed * speed).sqrt().recip();
-    let stopping = (gamma - 1.0) / thrust.max(1e-9);
+    let stopping = stopping(own, target, thrust);
     // What is left of the way along the motion, before it is past the target.
     let room = apart.dot(velocity) / speed.max(1e-9) - (SHORT.0 * reach).min(SHORT.1);
     let needed = stopping + REACTION * speed;
@@ -104,13 +142,15 @@ pub struct Approach {
     pub places: [DVec3; 2],
 }
 
-/// The nearest approach of two that coast; None if they part from now on.
-pub fn approach(own: &Point, target: &Point) -> Option<Approach> {
+/// The nearest approach of one that coasts to what it is after; None if they part from now on.
+pub fn approach(own: &Point, known: &Known) -> Option<Approach> {
     let step = AHEAD.0 / AHEAD.1 as f64;
-    let (mut own, mut target) = (*own, *target);
+    let coasts = |point: &Point| advance(point, step, 1.0, |_| DVec3::ZERO);
+    let (mut own, mut target) = (*own, known.point);
     let (mut best, mut nearest) = (None, own.x.distance(target.x));
     for k in 1..=AHEAD.1 {
-        [own, target] = [own, target].map(|point| advance(&point, step, 1.0, |_| DVec3::ZERO));
+        own = coasts(&own);
+        target = if known.rests { target } else { coasts(&target) };
         let distance = own.x.distance(target.x);
         if distance < nearest {
             nearest = distance;

@@ -16,6 +16,7 @@ pub mod goals;
 pub mod guidance;
 pub mod hash;
 pub mod history;
+pub mod intercept;
 pub mod moment;
 pub mod physics;
 pub mod pilot;

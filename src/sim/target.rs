@@ -4,10 +4,11 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use glam::DVec3;
 
-use super::goals::{ActiveMission, Progress};
+use super::goals::{ActiveMission, Progress, catch_radius};
 use super::history::History;
+use super::intercept::{Intercept, advised};
 use super::pilot::rollout::{PlannedBurn, Point, flown};
-use super::rules::Chase;
+use super::rules::{Chase, ChaseRules};
 use super::ship::{Pilot, PilotOrder};
 use super::sight::{apparition, emission_time};
 use crate::scene::mission::GoalTask;
@@ -32,6 +33,8 @@ pub struct Known {
     pub point: Point,
     /// How old that knowledge is, in r_s/c.
     pub age: f64,
+    /// It is a place, and does not fall.
+    pub rests: bool,
 }
 
 /// What is known of a ship's `history` at T = `time` in a ship in the state `own`. `now`: where it is now is told, else its light alone
@@ -40,7 +43,7 @@ pub fn known(own: &ShipState, time: f64, history: &History, now: bool) -> Option
     let emitted = if now { time } else { emission_time(&eye(own), time, history, Order::ALL[0])? };
     let sample = history.at(emitted);
     let age = time - emitted;
-    Some(Known { point: flown(&Point { x: sample.position, p: sample.momentum }, age, &PlannedBurn::COAST), age })
+    Some(Known { point: flown(&Point { x: sample.position, p: sample.momentum }, age, &PlannedBurn::COAST), age, rests: false })
 }
 
 /// A ship as an observer.
@@ -51,7 +54,7 @@ fn eye(ship: &ShipState) -> Observer {
 
 /// What rests at a place outside the horizon.
 pub fn resting(place: DVec3) -> Option<Known> {
-    Some(Known { point: Point { x: place, p: static_momentum(place)? }, age: 0.0 })
+    Some(Known { point: Point { x: place, p: static_momentum(place)? }, age: 0.0, rests: true })
 }
 
 /// What the pilot of a ship is after, and what is known of it.
@@ -60,6 +63,7 @@ pub struct Targets<'w, 's> {
     chase: Option<Res<'w, Chase>>,
     mission: Option<Res<'w, ActiveMission>>,
     progress: Option<Res<'w, Progress>>,
+    rules: Option<Res<'w, ChaseRules>>,
     pilots: Query<'w, 's, &'static Pilot>,
     histories: Query<'w, 's, &'static History>,
 }
@@ -91,6 +95,36 @@ impl Targets<'_, '_> {
     pub fn image(&self, own: Entity, state: &ShipState, time: f64) -> Option<DVec3> {
         let Some(Target::Ship(ship)) = self.of(own) else { return None };
         Some(apparition(&eye(state), time, self.histories.get(ship).ok()?, Order::ALL[0])?.direction)
+    }
+
+    /// How near it must come to what it is after, in r_s: to catch a ship, to fly through a gate. None where the goal is another.
+    pub fn reach(&self, own: Entity) -> Option<f64> {
+        match self.of(own)? {
+            Target::Ship(_) => catch_radius(self.mission.as_deref(), self.progress.as_deref(), self.rules.as_deref()?),
+            Target::Gate(_, radius) => Some(radius),
+        }
+    }
+
+    /// Whether thrust to what `own` is after is advised: to a ship that is to be flown with outside the horizon. Through a gate one flies,
+    /// and inside there is no time to meet.
+    pub fn advises(&self, own: Entity) -> bool {
+        let inside = self.mission.as_ref().is_some_and(|mission| mission.0.inside);
+        matches!(self.of(own), Some(Target::Ship(_))) && !inside
+    }
+
+    /// Where `own`, with an engine of `thrust` (c²/r_s), has to thrust to meet the ship that it is after.
+    pub fn advice(&self, own: Entity, state: &ShipState, known: &Known, thrust: f64) -> Option<Intercept> {
+        let reach = self.reach(own).filter(|_| self.advises(own))?;
+        advised(&Point::from(state), known, thrust, reach)
+    }
+
+    /// Where the nose of `own` is of most use, on body axes: where thrust leads to what it is after, else to where that is now as far as is
+    /// known.
+    pub fn mark(&self, own: Entity, state: &ShipState, time: f64, thrust: f64) -> Option<DVec3> {
+        let known = self.known(own, state, time)?;
+        let advice = self.advice(own, state, &known, thrust);
+        let towards = advice.map_or(known.point.x - state.position, |advice| advice.push);
+        towards.try_normalize().map(|towards| state.attitude.conjugate() * towards)
     }
 
     /// Whether the mission tells where ships are now.

@@ -6,8 +6,9 @@ use lensrunner::scene::GameConfig;
 use lensrunner::sim::assist::{AssistMode, AssistSettings, Reference, Stick, drift};
 use lensrunner::sim::flight::{Command, Flight, fly};
 use lensrunner::sim::guidance::{Brake, approach, guidance, meets};
+use lensrunner::sim::intercept::{advised, intercept};
 use lensrunner::sim::pilot::rollout::Point;
-use lensrunner::sim::target::known;
+use lensrunner::sim::target::{Known, known, resting};
 use lensrunner::sim::{Engine, History, PlayerCommands};
 use lensrunner::spacetime::matter::ShipState;
 use lensrunner::spacetime::orbit::circular_orbit;
@@ -120,7 +121,72 @@ fn light_tells_where_a_free_fall_leads() {
 #[test]
 fn an_approach_is_where_two_meet() {
     let [hunter, target] = closing(1e4, 0.2, 3.0).map(|state| Point::from(&state));
-    let near = approach(&hunter, &target).expect("they meet");
+    let near = approach(&hunter, &Known { point: target, age: 0.0, rests: false }).expect("they meet");
     assert!(near.distance < 1.0 && (near.ahead - 15.0).abs() < 4.0, "{near:?}");
+    // A gate stays where it is.
+    let rests = resting(DVec3::new(4.0, 8.0, 1.0)).expect("outside");
+    let near = approach(&Point::from(&circular_orbit(9.0, 0.9).expect("a circle")), &rests).expect("they meet");
+    assert!(near.places[1] == rests.point.x, "{near:?}");
     assert!(meets(&hunter, &target, 30.0, 1.0) && !meets(&hunter, &target, 5.0, 1.0));
+}
+
+/// The state after `span` of T under a proper acceleration on rest-frame axes, by the real step.
+fn flown(state: &ShipState, span: f64, acceleration: DVec3) -> ShipState {
+    let thrust = state.attitude.conjugate() * acceleration;
+    let command = Command { thrust, rates: DVec3::ZERO };
+    fly(&Flight { state: *state, fuel: f64::INFINITY }, 0.0, span, command, &[], |_| ()).0.state
+}
+
+/// A short hard push to the mark, corrected once on the way, leads to the target, from far off and round the hole too.
+#[test]
+fn a_push_to_the_mark_leads_to_the_target() {
+    const PUSH: f64 = 1.0 / 64.0;
+    for (radius, phase) in [(9.0, 0.3), (7.0, 1.5), (10.0, 2.5), (6.0, -1.0), (8.0, 4.0)] {
+        let mut own = circular_orbit(9.0, 0.0).expect("a circle");
+        let mut target = ShipState { ..circular_orbit(radius, phase).expect("a circle") };
+        for share in [0.5, 0.5, 1.0] {
+            let known = Known { point: Point::from(&target), age: 0.0, rests: false };
+            // An engine that gives any push.
+            let advice = intercept(&Point::from(&own), &known, 9.0).unwrap_or_else(|| panic!("{radius} {phase}: no way"));
+            own = flown(&flown(&own, PUSH, advice.push / PUSH), share * advice.ahead - PUSH, DVec3::ZERO);
+            target = flown(&target, share * advice.ahead, DVec3::ZERO);
+        }
+        let apart = own.position.distance(target.position);
+        assert!(apart < 0.3, "{radius} {phase}: {apart} r_s");
+    }
+}
+
+/// The whole of what the screen asks for: thrust to the mark, coast where there is none, match at the sign to brake.
+#[test]
+fn who_follows_mark_and_sign_holds_the_target() {
+    let settings = AssistSettings::from(&GameConfig::default());
+    let matches = PlayerCommands { assist: AssistMode::Target, matching: true, ..PlayerCommands::holding(&Stick::default()) };
+    for (radius, phase, tilt) in [(7.0, 0.8, 0.0), (9.0, 1.5, 0.2), (11.0, 0.6, -0.3), (7.5, -0.7, 0.1), (6.0, 2.0, 0.2)] {
+        let mut own = circular_orbit(9.0, 0.0).expect("a circle");
+        let mut target = circular_orbit(radius, phase).expect("a circle");
+        let turn = glam::DQuat::from_rotation_x(tilt);
+        (target.position, target.momentum) = (turn * target.position, turn * target.momentum);
+        let (mut held, mut spent) = (0.0, 0.0);
+        for _ in 0..(200.0 / STEP) as usize {
+            let known = Known { point: Point::from(&target), age: 0.0, rests: false };
+            let point = Point::from(&own);
+            let guide = guidance(&point, &known.point, engine().max_thrust, REACH);
+            let near = guide.apart.length() < REACH;
+            held = if near { held + STEP } else { 0.0 };
+            if held > 2.0 {
+                break;
+            }
+            let command = if near || guide.brake == Brake::Now {
+                matches.command(&own, &engine(), Some(known.point.velocity()), &settings).command
+            } else {
+                let push = advised(&point, &known, engine().max_thrust, REACH).map_or(DVec3::ZERO, |advice| advice.push / STEP);
+                Command { thrust: own.attitude.conjugate() * push.clamp_length_max(engine().max_thrust), rates: DVec3::ZERO }
+            };
+            spent += command.thrust.length() * STEP;
+            let next =
+                |state: &ShipState, command| fly(&Flight { state: *state, fuel: f64::INFINITY }, 0.0, STEP, command, &[], |_| ()).0.state;
+            (own, target) = (next(&own, command), next(&target, Command::default()));
+        }
+        assert!(held > 2.0 && spent < 3.0, "{radius} {phase} {tilt}: held {held}, spent {spent} c");
+    }
 }

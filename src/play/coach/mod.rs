@@ -1,6 +1,7 @@
 //! The coach: one hint at a time, by what happens in a flight by hand, and after a loss why. Each hint is given a few times, then it is
 //! silent; `interface.coach` switches it off.
 
+mod gates;
 pub mod review;
 
 use bevy::prelude::*;
@@ -19,6 +20,7 @@ use crate::play::picture::stage_loading::CurrentStage;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::words;
+use crate::sim::SimEvent;
 use crate::sim::assist::AssistMode;
 use crate::sim::guidance::{Brake, Guidance, meets};
 use crate::sim::pilot::rollout::Point;
@@ -84,19 +86,29 @@ pub struct CoachPlugin;
 
 impl Plugin for CoachPlugin {
     fn build(&self, app: &mut App) {
-        let follow = (review_flight, give_hints).chain().after(panel::read_panel).in_set(GameSet::Instruments);
+        let follow = (review_flight, gates::say_missed_gate, give_hints).chain().after(panel::read_panel).in_set(GameSet::Instruments);
         app.init_resource::<Review>().init_resource::<Coach>().add_systems(Update, follow.run_if(resource_exists::<CurrentStage>));
     }
 }
 
 /// Notes what happens; a flight that begins anew has a new review.
-fn review_flight(now: Now, panel: Res<Panel>, mut review: ResMut<Review>, mut coach: ResMut<Coach>, mut notice: ResMut<Notice>) {
+fn review_flight(
+    (now, panel): (Now, Res<Panel>),
+    mut events: MessageReader<SimEvent>,
+    (mut review, mut coach, mut notice): (ResMut<Review>, ResMut<Coach>, ResMut<Notice>),
+) {
     if begins_anew(&mut coach.before, now.clock()) {
         *review = Review::default();
         (coach.now, coach.look, coach.hopeless) = (Default::default(), 0.0, false);
         // What was said of the flight before.
         if notice.until == coach.until {
             notice.until = 0.0;
+        }
+    }
+    for event in events.read() {
+        if let Some(bolt) = now.bolt_that_hit(event) {
+            let span = event.time() - bolt.fired;
+            review.note_hit(span, |share| bolt.history.at(bolt.fired + share * span).position);
         }
     }
     let fuel = panel.instruments.map_or(1.0, |read| read.fuel_left);

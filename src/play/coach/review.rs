@@ -45,6 +45,10 @@ pub struct Review {
     spacing: f64,
     /// Whether the distance shrank in the frame before.
     closing: bool,
+    /// How the target was flown with at last.
+    kept: Option<Feat>,
+    /// The bolt that hit last.
+    shot: Option<Feat>,
     /// Where the brake sign would have been, at the speed of the fastest pass, in r_s.
     brake_from: f64,
 }
@@ -69,6 +73,30 @@ pub enum Lesson {
     Far(f64),
 }
 
+/// How a flight was won.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Feat {
+    /// With the target.
+    Kept {
+        /// Distance from it, in r_s.
+        distance: f64,
+        /// Speed against it, in c.
+        speed: f64,
+        /// r, in r_s.
+        radius: f64,
+    },
+    /// By a bolt.
+    Shot {
+        /// How long it flew, in r_s/c.
+        span: f64,
+        /// How far round the hole, in radians.
+        round: f64,
+    },
+}
+
+/// Pieces of a bolt's way whose turns about the hole are added.
+const PIECES: usize = 64;
+
 impl Review {
     /// Notes a moment at T = `time`: the ship's place (r_s), motion against the target that is caught within `reach` (r_s), and the Δv left
     /// (c).
@@ -78,6 +106,8 @@ impl Review {
         if fuel <= 0.0 && self.dry.is_none() {
             self.dry = Some(mark);
         }
+        self.kept =
+            target.map(|(guide, _)| Feat::Kept { distance: guide.apart.length(), speed: guide.velocity.length(), radius: own.length() });
         let Some((guide, reach)) = target else {
             self.closing = false;
             return;
@@ -132,6 +162,18 @@ impl Review {
         }
     }
 
+    /// Notes the bolt that hit: where it was, `at` times from 0 to 1 of its flight of `span` (r_s/c).
+    pub fn note_hit(&mut self, span: f64, at: impl Fn(f64) -> DVec3) {
+        let places: Vec<DVec3> = (0..=PIECES).map(|piece| at(piece as f64 / PIECES as f64)).collect();
+        let round = places.windows(2).map(|pair| pair[0].angle_between(pair[1])).sum();
+        self.shot = Some(Feat::Shot { span, round });
+    }
+
+    /// How the flight was won that ended so; None where the times say all, or it was lost.
+    pub fn feat(&self, outcome: Outcome) -> Option<Feat> {
+        matches!(outcome, Outcome::Caught | Outcome::Done).then_some(self.shot.or(self.kept)).flatten()
+    }
+
     /// Why the flight was lost that ended so; None where it was won, or the outcome says all.
     pub fn lesson(&self, outcome: Outcome) -> Option<Lesson> {
         let fast: Vec<f64> = self.passes.iter().copied().filter(|&speed| speed > FAST).collect();
@@ -177,6 +219,12 @@ mod tests {
         let moment = review.moment(Lesson::Passed { times, speed, from }).map(|mark| (mark.time, mark.own.y));
         assert!(moment.is_some_and(|(time, y)| y == 1.0 && (0.0..=1.0).contains(&time)), "{moment:?}");
         assert_eq!(review.lesson(Outcome::Done), None);
+        let Some(Feat::Kept { speed, .. }) = review.feat(Outcome::Done) else { panic!("{review:?}") };
+        assert!((speed - 0.5).abs() < 1e-3 && review.feat(Outcome::TimeOut).is_none(), "{speed}");
+        // Half round the hole.
+        review.note_hit(9.0, |share| DVec3::X.rotate_axis(DVec3::Z, share * std::f64::consts::PI) * 3.0);
+        let Some(Feat::Shot { span, round }) = review.feat(Outcome::Done) else { panic!("{review:?}") };
+        assert!(span == 9.0 && (round - std::f64::consts::PI).abs() < 1e-9, "{span} {round}");
         assert_eq!(review.lesson(Outcome::ShipLost), Some(Lesson::Fell));
     }
 

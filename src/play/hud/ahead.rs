@@ -4,10 +4,11 @@
 use glam::DVec3;
 
 use crate::sim::History;
-use crate::sim::bolts::{self, LIFE, bolt_momentum, fired_by};
+use crate::sim::bolts::{LIFE, bolt_momentum};
 use crate::sim::guidance::approach;
 use crate::sim::pilot::rollout::{Point, advance};
 use crate::sim::sight::{direction, emission_time};
+use crate::sim::target::Known;
 use crate::spacetime::Observer;
 use crate::spacetime::light::Order;
 use crate::spacetime::matter::ShipState;
@@ -50,25 +51,9 @@ pub struct Pass {
 }
 
 /// How one passes a target; None if both part from now on.
-pub fn pass(camera: &Observer, own: &ShipState, target: &Point) -> Option<Pass> {
-    let near = approach(&Point::from(own), target)?;
+pub fn pass(camera: &Observer, own: &ShipState, known: &Known) -> Option<Pass> {
+    let near = approach(&Point::from(own), known)?;
     Some(Pass { distance: near.distance, ahead: near.ahead, directions: near.places.map(|place| seen_at(camera, place)) })
-}
-
-/// How near a bolt fired now comes to a target that coasts, in r_s.
-pub fn shot_passes(own: &ShipState, target: &Point) -> f64 {
-    /// T of a piece, in r_s/c; between its ends both fly straight.
-    const STEP: f64 = 0.5;
-    let mut bolt = Point::from(&fired_by(own));
-    let mut other = *target;
-    let mut nearest = f64::INFINITY;
-    for _ in 0..(LIFE / STEP) as usize {
-        let before = bolt.x - other.x;
-        bolt = advance(&bolt, STEP, 1.0, |_| DVec3::ZERO);
-        other = advance(&other, STEP, 1.0, |_| DVec3::ZERO);
-        nearest = nearest.min(bolts::nearest(before, bolt.x - other.x));
-    }
-    nearest
 }
 
 /// The places of a free fall, from the end of the first piece on.
@@ -106,7 +91,8 @@ mod tests {
         let rain = other.position / other.position.length() * (other.momentum.dot(other.position) / other.position.length());
         other.momentum = 2.0 * rain - other.momentum;
         let camera = Observer { position: own.position, momentum: own.momentum, attitude: own.attitude, field_of_view: 1.0 };
-        let Pass { distance: nearest, ahead: when, directions } = pass(&camera, &own, &Point::from(&other)).expect("they meet");
+        let Pass { distance: nearest, ahead: when, directions } =
+            pass(&camera, &own, &Known { point: Point::from(&other), age: 0.0, rests: false }).expect("they meet");
         assert!(directions[0].expect("seen").angle_between(directions[1].expect("seen")) < 0.3);
         let sixteenth = std::f64::consts::FRAC_PI_8 / crate::spacetime::orbit::orbital_frequency(8.0);
         assert!(nearest < 0.5 && (when - sixteenth).abs() < 1.0, "{nearest} {when} {sixteenth}");

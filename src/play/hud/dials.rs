@@ -186,6 +186,7 @@ fn state(
         (_, true, _) if player.pilot == Some(PilotKind::Hands) => "hud-hands",
         (_, true, _) => "hud-autopilot",
         _ if player.matching() => "hud-matching",
+        _ if player.facing => "hud-facing",
         (_, _, mode) => assist_words(mode),
     });
     let view = language.say(match player.view {

@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::play::camera::BEHIND;
 use crate::play::hud::layout::settle;
 use crate::play::hud::paint::{ALARM, FAINT, NAME_PAD, OWN, SEEN, TEXT, TRUE, rimmed, text};
-use crate::play::hud::panel::Panel;
+use crate::play::hud::panel::{GateAhead, Panel};
 use crate::play::words::Language;
 use crate::sim::guidance::Brake;
 
@@ -80,9 +80,9 @@ pub struct Taken {
     pub other: Vec<Rect>,
 }
 
-/// Paints the markers on the screen `rect`, with their names in this language. Returns what they take up themselves, in points: markers
+/// Paints the markers of `panel` on the screen `rect`, with their names in this language and the numbers of `said`. Returns what they take up themselves, in points: markers
 /// first, then arrows, then names.
-pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Taken, language: Language) -> Vec<Rect> {
+pub fn paint(painter: &Painter, rect: Rect, (panel, said): (&Panel, &Panel), taken: Taken, language: Language) -> Vec<Rect> {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     let find = |direction: DVec3| marker_position(direction, panel.field_of_view, size, f64::from(FREE + 0.5 * ARROW));
     let point = |at: [f64; 2]| rect.min + vec2(at[0] as f32, at[1] as f32);
@@ -134,6 +134,7 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Taken, languag
     if let Some((MarkerPosition::On(at), age)) = first {
         let at = board.marks(point(at), 13.0, SEEN);
         diamond(painter, at, 13.0, Stroke::new(2.0, SEEN));
+        let age = said.images[0].map_or(age, |image| image.age);
         let words = language.fill("hud-seen", &[("age", format!("{age:.1}").as_str())]);
         board.name(words, 13.0, SEEN, at + vec2(18.0, -10.0), Align2::LEFT_BOTTOM);
     }
@@ -143,14 +144,22 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Taken, languag
             let begin = f64::from(quarter) / 8.0;
             dash(painter, at, 13.0, begin, begin + 0.07, Stroke::new(1.8, TRUE));
         }
-        board.name(with_pass(language.say("hud-now"), panel, language), 13.0, TRUE, at + vec2(18.0, 10.0), Align2::LEFT_TOP);
+        board.name(with_pass(language.say("hud-now"), said, language), 13.0, TRUE, at + vec2(18.0, 10.0), Align2::LEFT_TOP);
     }
     if let Some(MarkerPosition::On(at)) = fallen {
         let at = board.marks(point(at), 8.0, SEEN);
         for half in [vec2(8.0, 0.0), vec2(0.0, 8.0)] {
             rimmed(painter, Stroke::new(1.6, SEEN), |stroke| Shape::line_segment([at - half, at + half], stroke));
         }
-        board.name(with_pass(language.say("hud-fallen"), panel, language), 11.5, SEEN, at + vec2(13.0, 8.0), Align2::LEFT_TOP);
+        board.name(with_pass(language.say("hud-fallen"), said, language), 11.5, SEEN, at + vec2(13.0, 8.0), Align2::LEFT_TOP);
+    }
+    let thrust = panel.thrust.map(|(direction, _)| find(direction));
+    if let Some(MarkerPosition::On(at)) = thrust {
+        let at = board.marks(point(at), 11.0, OWN);
+        corners(painter, at, 11.0, Stroke::new(2.0, OWN));
+        let push = said.thrust.or(panel.thrust).map_or(0.0, |(_, push)| push);
+        let words = language.fill("hud-thrust", &[("push", format!("{push:.2}").as_str())]);
+        board.name(words, 13.0, OWN, at + vec2(-14.0, -10.0), Align2::RIGHT_BOTTOM);
     }
     if let Some([ahead, behind]) = moving {
         let colour = brake_colour(brake);
@@ -181,14 +190,22 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Taken, languag
         diamond(painter, at, 7.0, Stroke::new(1.2, SEEN));
         board.name(language.say("hud-second-image"), 11.5, SEEN, at + vec2(11.0, 0.0), Align2::LEFT_CENTER);
     }
-    let gate = |number: usize| language.fill("hud-gate", &[("number", number.to_string().as_str())]);
-    match panel.gate.map(|(direction, number)| (find(direction), number)) {
-        Some((MarkerPosition::On(at), number)) => {
+    match panel.gate.and_then(|gate| Some((find(gate.direction?), gate))) {
+        Some((MarkerPosition::On(at), gate)) => {
             let at = board.marks(point(at), 16.0, TRUE);
             rimmed(painter, Stroke::new(1.8, TRUE), |stroke| Shape::circle_stroke(at, 16.0, stroke));
-            board.name(gate(number), 13.0, TRUE, at + vec2(20.0, 0.0), Align2::LEFT_CENTER);
+            board.name(
+                gate_name(said.gate.as_ref().unwrap_or(&gate), said, language),
+                13.0,
+                TRUE,
+                at + vec2(20.0, 0.0),
+                Align2::LEFT_CENTER,
+            );
         }
-        Some((MarkerPosition::Edge(at, towards), number)) => board.arrow(at, towards, &gate(number), TRUE),
+        Some((MarkerPosition::Edge(at, towards), gate)) => {
+            let number = gate.number.to_string();
+            board.arrow(at, towards, &language.fill("hud-gate", &[("number", number.as_str())]), TRUE);
+        }
         None => (),
     }
     if let Some((MarkerPosition::Edge(at, towards), _)) = first {
@@ -199,6 +216,9 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Taken, languag
     }
     if let Some(MarkerPosition::Edge(at, towards)) = fallen {
         board.arrow(at, towards, &language.say("hud-fallen-short"), SEEN);
+    }
+    if let Some(MarkerPosition::Edge(at, towards)) = thrust {
+        board.arrow(at, towards, &language.say("hud-thrust-short"), OWN);
     }
     if let Some([MarkerPosition::Edge(at, towards), _]) = moving {
         board.arrow(at, towards, &language.say("hud-moving"), brake_colour(brake));
@@ -295,20 +315,27 @@ pub fn brake_colour(brake: Brake) -> Color32 {
     }
 }
 
+/// The name of a gate, with how far off it is, how near one passes its middle, and how wide it is.
+fn gate_name(gate: &GateAhead, panel: &Panel, language: Language) -> String {
+    let number = |value: f64| format!("{value:.1}");
+    let [place, distance, radius] = [gate.number.to_string(), number(gate.distance), number(gate.radius)];
+    let name = language.fill("hud-gate-off", &[("number", place.as_str()), ("distance", distance.as_str())]);
+    let ring = language.fill("hud-gate-ring", &[("radius", radius.as_str())]);
+    [Some(name), passes(panel, language), Some(ring)].into_iter().flatten().collect::<Vec<_>>().join(" · ")
+}
+
+/// How near one passes what one is after, and in which time, in words.
+fn passes(panel: &Panel, language: Language) -> Option<String> {
+    let near = panel.pass?;
+    let [distance, ahead] = [format!("{:.1}", near.distance), format!("{:.0}", near.ahead)];
+    Some(language.fill("hud-passes", &[("distance", distance.as_str()), ("ahead", ahead.as_str())]))
+}
+
 /// The name of the target's place, with how near one passes it, and how near it is caught.
 fn with_pass(name: String, panel: &Panel, language: Language) -> String {
-    let number = |value: f64| format!("{value:.1}");
     let Some(reach) = panel.reach else { return name };
-    let passed = panel.pass.map_or(String::new(), |near| {
-        let ahead = format!("{:.0}", near.ahead);
-        language.fill("hud-passes", &[("distance", number(near.distance).as_str()), ("ahead", ahead.as_str())])
-    });
-    [name, passed, language.fill("hud-reach", &[("reach", number(reach).as_str())])]
-        .iter()
-        .filter(|part| !part.is_empty())
-        .cloned()
-        .collect::<Vec<_>>()
-        .join(" · ")
+    let reach = language.fill("hud-reach", &[("reach", format!("{reach:.1}").as_str())]);
+    [Some(name), passes(panel, language), Some(reach)].into_iter().flatten().collect::<Vec<_>>().join(" · ")
 }
 
 /// A line of dots with a dark edge, with gaps where a place is not on the screen; each piece ends in an arrow, so that its way is read.
@@ -332,6 +359,15 @@ fn dotted(painter: &Painter, points: &[Option<Pos2>], colour: Color32) {
 fn cross(painter: &Painter, at: Pos2, half: f32, stroke: Stroke) {
     for side in [vec2(half, half), vec2(half, -half)] {
         rimmed(painter, stroke, |stroke| Shape::line_segment([at - side, at + side], stroke));
+    }
+}
+
+/// The corners of a square.
+fn corners(painter: &Painter, at: Pos2, half: f32, stroke: Stroke) {
+    for side in [vec2(-half, -half), vec2(half, -half), vec2(half, half), vec2(-half, half)] {
+        let (corner, inward) = (at + side, side * -0.6);
+        let bend = vec![corner + inward * vec2(1.0, 0.0), corner, corner + inward * vec2(0.0, 1.0)];
+        rimmed(painter, stroke, |stroke| Shape::line(bend.clone(), stroke));
     }
 }
 
@@ -400,7 +436,7 @@ mod tests {
         let corner = Rect::from_min_max(pos2(760.0, 480.0), pos2(882.0, 602.0));
         let mut found = Vec::new();
         on_canvas([900.0, 620.0], |painter, rect| {
-            found = paint(painter, rect, panel, Taken { panels: vec![corner], other: Vec::new() }, Language::English)
+            found = paint(painter, rect, (panel, panel), Taken { panels: vec![corner], other: Vec::new() }, Language::English)
         });
         (corner, found)
     }
@@ -442,7 +478,8 @@ mod tests {
                         [(18.0, 18.0), (wide - 198.0, 18.0), (18.0, high - 183.0), (wide - 158.0, high - 126.0), (0.5 * wide - 73.0, 18.0)];
                     let mut dials: Vec<_> = corners.map(|(x, y)| Rect::from_min_size(pos2(x, y), vec2(140.0, 96.0))).to_vec();
                     dials.push(own_ship(rect, panel.field_of_view));
-                    let boxes = paint(painter, rect, &panel, Taken { panels: dials.clone(), other: Vec::new() }, Language::English);
+                    let boxes =
+                        paint(painter, rect, (&panel, &panel), Taken { panels: dials.clone(), other: Vec::new() }, Language::English);
                     assert_eq!(boxes.len(), 4, "two arrows, two names");
                     for arrow in &boxes[..2] {
                         let inner = rect.shrink(FREE + ARROW);

@@ -30,7 +30,7 @@ use crate::play::camera::CameraView;
 use crate::play::hud::instruments::{Countdown, Scale, hold_numbers};
 use crate::play::hud::notice::Notice;
 use crate::play::hud::paint::{ALARM, FAINT, OWN, TEXT, TRUE, TextBox, text};
-use crate::play::hud::panel::Panel;
+use crate::play::hud::panel::{Panel, Said};
 use crate::play::input::action::Action;
 use crate::play::input::bindings::Bindings;
 use crate::play::input::button::Device;
@@ -73,15 +73,21 @@ type Flown<'w> = (Option<Res<'w, ActiveMission>>, Option<Res<'w, Progress>>, Opt
 /// What is bound to each action, and the device in use.
 type Buttons<'w> = (Res<'w, Bindings>, Res<'w, Device>);
 
+/// What is said, and how the flight is shown.
+type Shown<'w> = (Res<'w, Notice>, Res<'w, Time<Real>>, Option<Res<'w, CurrentStage>>, Res<'w, Slowing>);
+
+/// What the HUD keeps from frame to frame.
+type Kept<'w, 's> = (Local<'s, goals::Slow>, ResMut<'w, Dials>, Local<'s, Preloaded>, Local<'s, Said>);
+
 /// Draws the HUD.
 fn draw(
     mut contexts: EguiContexts,
     (screen, session, player): (Res<State<Screen>>, Res<Session>, Res<PlayerState>),
     (chase, rules, avoiding): (Option<Res<Chase>>, Res<ChaseRules>, Res<Avoiding>),
     (panel, commands, (bindings, device)): (Res<Panel>, Option<Res<PlayerCommands>>, Buttons),
-    (notice, real, current): (Res<Notice>, Res<Time<Real>>, Option<Res<CurrentStage>>),
+    (notice, real, current, slowing): Shown,
     (mission, progress, playback): Flown,
-    (slowing, mut slow, mut painted, mut preloaded): (Res<Slowing>, Local<goals::Slow>, ResMut<Dials>, Local<Preloaded>),
+    (mut slow, mut painted, mut preloaded, mut numbers): Kept,
 ) -> Result {
     let context = contexts.ctx_mut()?;
     let painter = context.layer_painter(egui::LayerId::background());
@@ -116,7 +122,8 @@ fn draw(
         return Ok(());
     }
     let mut taken = markers::Taken { panels: said, other: Vec::new() };
-    let Some(read) = panel.instruments else { return Ok(()) };
+    let numbers = numbers.follow(&panel, real.elapsed_secs_f64());
+    let Some(read) = numbers.instruments else { return Ok(()) };
     let helped = commands.is_some_and(|commands| commands.thrust == [0; 3]) && !player.autopilot && playback.is_none();
     let mut text_boxes = dials::lay_out(
         &painter,
@@ -128,7 +135,7 @@ fn draw(
             replayed: playback.is_some(),
             slowing: slowing.0,
             by_light: panel.by_light,
-            guidance: panel.guidance.filter(|_| panel.reach.is_some()),
+            guidance: numbers.guidance.filter(|_| panel.reach.is_some()),
             helped,
         },
     );
@@ -157,7 +164,7 @@ fn draw(
         taken.panels.push(message.frame);
         message.paint(&front);
     }
-    if let Some(words) = extra(&panel, language) {
+    if let Some(words) = extra(numbers, language) {
         let at = pos2(rect.right() - MARGIN, target_top(&text_boxes, rect) - BETWEEN);
         text_boxes.push(TextBox::lay_out(&painter, at, Align2::RIGHT_BOTTOM, f32::INFINITY, &[(&words, 12.0, TEXT)]));
     }
@@ -174,7 +181,7 @@ fn draw(
     let warned = Warned { avoiding: avoiding.0, brake: panel.says_brake(player.autopilot, avoiding.0), edge, radius: read.radius };
     let button = words::buttons::of(language, &bindings, *device, Action::ToggleAssist);
     taken.panels.extend(warnings(&painter, rect, &warned, &button, language));
-    markers::paint(&painter, rect, &panel, taken, language);
+    markers::paint(&painter, rect, (&panel, numbers), taken, language);
     Ok(())
 }
 

@@ -14,12 +14,13 @@ use crate::scene::disk::Gas;
 use crate::scene::mission::GoalTask;
 use crate::sim::Outcome;
 use crate::sim::guidance::{Brake, Guidance, guidance};
-use crate::sim::pilot::aim::AimMarks;
+use crate::sim::intercept::{Intercept, advised};
+use crate::sim::pilot::aim::{AimMarks, shot_passes};
 use crate::sim::pilot::rollout::Point;
 use crate::sim::seeing::{Phenomenon, Pointer, Scenery, SeenBody, Track, pointers};
 use crate::sim::sight::{Apparition, apparition, direction, emission_time, frequency_ratio, true_direction};
 use crate::sim::snapshot::FrameCamera;
-use crate::sim::target::known;
+use crate::sim::target::{known, resting};
 use crate::spacetime::Observer;
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::Order;
@@ -46,14 +47,16 @@ pub struct Panel {
     pub by_light: bool,
     /// Where the ship points, in camera axes.
     pub nose: Option<glam::DVec3>,
-    /// The next gate, in camera axes, and its number from 1.
-    pub gate: Option<(glam::DVec3, usize)>,
+    /// The next gate.
+    pub gate: Option<GateAhead>,
     /// One's own course, that of the target, and the way of a bolt fired now, if there are bolts.
     pub lines: [AheadLine; 3],
     /// How near one comes to the target by falling on.
     pub pass: Option<Pass>,
     /// Motion against the target.
     pub guidance: Option<Guidance>,
+    /// Where thrust leads to what one is after, in camera axes, and how much of it, in c; None where one's fall does.
+    pub thrust: Option<(glam::DVec3, f64)>,
     /// Where that motion leads, in camera axes; None while there is hardly any.
     pub moving: Option<glam::DVec3>,
     /// Where the target is if it has fallen freely since its light left it, in camera axes, where nobody tells.
@@ -70,11 +73,75 @@ pub struct Panel {
     pub pointers: Vec<Pointer>,
 }
 
+/// The next gate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GateAhead {
+    /// Where it is seen, in camera axes; None where it is not.
+    pub direction: Option<glam::DVec3>,
+    /// Its number, from 1.
+    pub number: usize,
+    /// How far off its middle is, in r_s.
+    pub distance: f64,
+    /// Its ring's radius, in r_s.
+    pub radius: f64,
+}
+
 impl Panel {
     /// Whether the sign to brake is shown: to who flies by hand, where no other warning comes before it.
     pub fn says_brake(&self, autopilot: bool, avoiding: bool) -> bool {
         let is_due = self.guidance.is_some_and(|guide| guide.brake == Brake::Now) && self.reach.is_some();
         is_due && !autopilot && !avoiding && self.instruments.is_some_and(|read| read.radius >= 1.0)
+    }
+}
+
+/// How long numbers stand, in seconds of wall time.
+const STAND: f64 = 0.1;
+
+/// What takes long to find, and is found anew as often as numbers are said.
+#[derive(Clone, Debug, Default)]
+pub(in crate::play) struct Slow {
+    /// When it is due, in seconds of wall time.
+    until: f64,
+    /// T of the frame before, in r_s/c.
+    before: f64,
+    /// The gate and the reach that it was found for.
+    about: (Option<usize>, Option<f64>),
+    advice: Option<Intercept>,
+    shot_passes: Option<f64>,
+}
+
+impl Slow {
+    /// Whether it is to be found in the frame at T = `time`, at `seconds` of wall time, for a gate or a reach.
+    fn is_due(&mut self, time: f64, seconds: f64, about: (Option<usize>, Option<f64>)) -> bool {
+        let is_same = self.before <= time && self.about == about;
+        (self.before, self.about) = (time, about);
+        let is_due = seconds >= self.until || !is_same;
+        if is_due {
+            self.until = seconds + STAND;
+        }
+        is_due
+    }
+}
+
+/// What the numbers in words say: that of a moment ago, since nobody reads what changes in every frame, and its text need not be laid out
+/// anew.
+#[derive(Clone, Debug, Default)]
+pub struct Said {
+    panel: Panel,
+    /// When the numbers change again, in seconds of wall time.
+    until: f64,
+}
+
+impl Said {
+    /// The numbers to be said in the frame of `panel`, at `seconds` of wall time.
+    pub fn follow(&mut self, panel: &Panel, seconds: f64) -> &Panel {
+        let time = |panel: &Panel| panel.instruments.map(|read| read.far_time);
+        let about = |panel: &Panel| (panel.gate.map(|gate| gate.number), panel.reach, panel.bolts, panel.by_light, panel.pass.is_some());
+        let goes_on = time(&self.panel).is_some() && time(&self.panel) <= time(panel) && about(&self.panel) == about(panel);
+        if seconds >= self.until || !goes_on {
+            *self = Said { panel: panel.clone(), until: seconds + STAND };
+        }
+        &self.panel
     }
 }
 
@@ -93,7 +160,7 @@ pub(in crate::play) fn read_panel(
     windows: Query<&Window, With<PrimaryWindow>>,
     player: Res<PlayerState>,
     mut panel: ResMut<Panel>,
-    (mut aimed, mut aimed_at): (Local<AimMarks>, Local<f64>),
+    (mut aimed, mut aimed_at, mut slow, real): (Local<AimMarks>, Local<f64>, Local<Slow>, Res<Time<Real>>),
 ) {
     let (Some(FrameCamera { camera, .. }), Some((history, engine, controls, fuel))) = (shot.0, now.own()) else { return };
     let time = now.time();
@@ -108,12 +175,18 @@ pub(in crate::play) fn read_panel(
         target.and_then(|history| Some(state_of(&history.at(emission_time(&camera, time, history, Order::ALL[0])?))))
     };
     let thrust = engine.thrust(controls.0.thrust).length();
-    let resting = static_momentum(state.position).unwrap_or_default();
+    let hovering = static_momentum(state.position).unwrap_or_default();
     let is_own = camera_is_own(&player, now.chase.as_deref().and_then(|chase| chase.outcome));
     let gate = now.mission.as_ref().zip(now.progress.as_ref()).and_then(|(mission, progress)| {
         let is_next = mission.0.goals.get(progress.goal).is_some_and(|goal| goal.task == GoalTask::Gates);
-        let gate = mission.0.gates.get(progress.gates).filter(|_| is_next)?;
-        Some((direction(&camera, gate.position, Order::ALL[0], 0.0)?, progress.gates + 1))
+        Some((mission.0.gates.get(progress.gates).filter(|_| is_next)?, progress.gates + 1))
+    });
+    let place = gate.and_then(|(gate, _)| resting(gate.position));
+    let gate = gate.map(|(gate, number)| GateAhead {
+        direction: direction(&camera, gate.position, Order::ALL[0], 0.0),
+        number,
+        distance: gate.position.distance(state.position),
+        radius: gate.radius,
     });
     // One that never had a bolt is none.
     let gun = now.gun().filter(|gun| gun.left > 0 || gun.ready > 0.0);
@@ -126,17 +199,29 @@ pub(in crate::play) fn read_panel(
     let seeing = menu.page() == Some(Page::Seeing) && now.session.config.render.lensing;
     let aspect = windows.iter().next().map_or(16.0 / 9.0, |window| f64::from(window.width() / window.height().max(1.0)));
     let pointers = if seeing { pointed_at(&now, &camera, aspect, marked_now) } else { Vec::new() };
-    let moving = -relative_momentum(state.momentum, resting);
+    let moving = -relative_momentum(state.momentum, hovering);
     let to_camera = camera.attitude.conjugate();
     let known = target.filter(|_| is_own).and_then(|history| known(&state, time, history, marked_now));
+    // Seen from behind the ship a direction of its own is where it meets the target's distance, so that who points at the target has both
+    // marks on each other.
+    let range = place.or(known).map(|known| known.point.x.distance(state.position));
+    let ahead = |direction: glam::DVec3| match range {
+        Some(range) => true_direction(&camera, state.position + direction * range).unwrap_or(to_camera * direction),
+        None => to_camera * direction,
+    };
     let reach = now.reach();
+    if slow.is_due(time, real.elapsed_secs_f64(), (gate.map(|gate| gate.number), reach)) {
+        let meets = known.filter(|_| gate.is_none() && now.mission.as_ref().is_none_or(|mission| !mission.0.inside));
+        slow.advice = meets.zip(reach).and_then(|(known, reach)| advised(&Point::from(&state), &known, engine.max_thrust, reach));
+        slow.shot_passes = gun.zip(known).map(|(_, known)| shot_passes(&state, &known.point));
+    }
     let guidance = known.map(|known| guidance(&Point::from(&state), &known.point, engine.max_thrust, reach.unwrap_or(0.0)));
     // What was aimed at in another flight is no guide.
     if std::mem::replace(&mut *aimed_at, time) > time || known.is_none() {
         *aimed = AimMarks::default();
     }
     let aims = match gun.filter(|gun| gun.left > 0).zip(known) {
-        Some((_, known)) => aimed.follow(&state, known.point).iter().map(|aim| (to_camera * aim.direction, aim.time)).collect(),
+        Some((_, known)) => aimed.follow(&state, known.point).iter().map(|aim| (ahead(aim.direction), aim.time)).collect(),
         None => Vec::new(),
     };
     *panel = Panel {
@@ -153,15 +238,16 @@ pub(in crate::play) fn read_panel(
         heading: (moving.length() > 0.01).then(|| camera.attitude.conjugate() * moving.normalize()),
         field_of_view: now.session.config.video.fov.to_radians(),
         by_light: !marked_now,
-        nose: is_own.then(|| camera.attitude.conjugate() * (state.attitude * glam::DVec3::NEG_Z)),
+        nose: is_own.then(|| ahead(state.attitude * glam::DVec3::NEG_Z)),
         gate,
         lines,
-        pass: known.and_then(|known| ahead::pass(&camera, &state, &known.point)),
-        moving: guidance.filter(|guide| guide.velocity.length() > STILL).map(|guide| to_camera * guide.velocity.normalize()),
+        pass: place.filter(|_| is_own).or(known).and_then(|known| ahead::pass(&camera, &state, &known)),
+        thrust: slow.advice.filter(|_| is_own).map(|advice| (ahead(advice.push.normalize()), advice.push.length())),
+        moving: guidance.filter(|guide| guide.velocity.length() > STILL).map(|guide| ahead(guide.velocity.normalize())),
         fallen: known.filter(|known| known.age > 0.0).and_then(|known| true_direction(&camera, known.point.x)),
         guidance,
         reach,
-        shot_passes: gun.zip(known).map(|(_, known)| ahead::shot_passes(&state, &known.point)),
+        shot_passes: slow.shot_passes,
         aims,
         bolts: gun.map(|gun| gun.left),
         pointers,

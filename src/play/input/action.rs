@@ -60,6 +60,8 @@ actions! {
     ToggleCamera = "toggle_camera",
     /// Look at the target while held.
     LookAtTarget = "look_at_target",
+    /// Turn the nose to the target while held.
+    FaceTarget = "face_target",
     /// HUD on or off.
     ToggleHud = "toggle_hud",
     /// Dev overlay on or off.

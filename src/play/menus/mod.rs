@@ -229,6 +229,7 @@ fn markers(ui: &mut Ui, language: Language) {
         ("marker-fallen", SEEN),
         ("marker-seen", SEEN),
         ("marker-second", SEEN),
+        ("marker-thrust", OWN),
         ("marker-drift", OWN),
         ("marker-course", OWN),
         ("marker-lines", FAINT),

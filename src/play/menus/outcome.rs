@@ -4,7 +4,7 @@ use bevy_egui::egui::{Color32, RichText, Ui};
 
 use super::flight_map;
 use super::words::{stars, unit};
-use crate::play::coach::review::{Lesson, Review};
+use crate::play::coach::review::{Feat, Lesson, Review};
 use crate::play::hud::instruments::Scale;
 use crate::play::hud::paint::{ALARM, FAINT, OWN, TEXT, TRUE};
 use crate::play::hud::palette::Palette;
@@ -25,6 +25,9 @@ pub(super) fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, pane
     let lesson = review.lesson(outcome).filter(|_| flown.by_hand);
     if let Some(lesson) = lesson {
         line(&lesson_words(language, lesson), 15.0, TRUE);
+    }
+    if let Some(feat) = review.feat(outcome) {
+        line(&feat_words(language, feat), 15.0, TRUE);
     }
     if let Some(key) = pilot(flown) {
         line(&language.say(key), 13.0, TRUE);
@@ -55,6 +58,24 @@ fn lesson_words(language: Language, lesson: Lesson) -> String {
         }
         Lesson::Dry(time) => language.fill("lesson-dry", &[("time", tenth(time).as_str())]),
         Lesson::Far(distance) => language.fill("lesson-far", &[("distance", tenth(distance).as_str())]),
+    }
+}
+
+/// How a flight was won, in a sentence.
+fn feat_words(language: Language, feat: Feat) -> String {
+    /// A bolt is bent round the hole from here on, in degrees: a straight one sweeps less than half of a circle.
+    const ROUND: f64 = 180.0;
+    match feat {
+        Feat::Kept { distance, speed, radius } => {
+            let [distance, speed, radius] = [distance, speed, radius].map(|value| format!("{value:.2}"));
+            let values = [("distance", distance.as_str()), ("speed", speed.as_str()), ("radius", radius.as_str())];
+            language.fill("feat-kept", &values)
+        }
+        Feat::Shot { span, round } => {
+            let [length, angle] = [span, round.to_degrees()].map(|value| format!("{value:.0}"));
+            let key = if round.to_degrees() > ROUND { "feat-shot-round" } else { "feat-shot" };
+            language.fill(key, &[("span", length.as_str()), ("angle", angle.as_str())])
+        }
     }
 }
 

@@ -60,6 +60,7 @@ impl Preset {
                     (ToggleAutopilot, "KeyT"),
                     (ToggleCamera, "KeyC"),
                     (LookAtTarget, "KeyV"),
+                    (FaceTarget, "Digit3"),
                     (ToggleHud, "KeyB"),
                     (Slower, "Digit1"),
                     (Faster, "Digit2"),
@@ -72,7 +73,7 @@ impl Preset {
                     (Screenshot, "F4"),
                     (ToggleFullScreen, "F5"),
                 ],
-                "boost look_at_target",
+                "boost look_at_target face_target",
             )),
             Preset::RightHand => Some((
                 &[
@@ -91,6 +92,7 @@ impl Preset {
                     (RollLeft, "Numpad7"),
                     (RollRight, "Numpad1"),
                     (LookAtTarget, "Numpad5"),
+                    (FaceTarget, "Slash"),
                     (ToggleAssist, "Home"),
                     (ToggleAutopilot, "End"),
                     (ToggleCamera, "Insert"),
@@ -106,7 +108,7 @@ impl Preset {
                     (Screenshot, "F12"),
                     (ToggleOverlay, "F7"),
                 ],
-                "boost look_at_target",
+                "boost look_at_target face_target",
             )),
             Preset::Mouse => Some((
                 &[(ThrustForward, "MouseRight"), (Fire, "MouseLeft"), (LookAtTarget, "MouseMiddle"), (Pause, "Escape")],

@@ -49,7 +49,9 @@ impl Prompts<'_> {
 pub(super) fn hint(session: &Session, prompts: Prompts) -> String {
     let mut parts = vec![prompts.with("hint-thrust", [("button", Action::ThrustForward)])];
     let chases = session.target().is_some();
-    parts.extend(chases.then(|| prompts.with("hint-look", [("button", Action::LookAtTarget)])));
+    for (key, action) in [("hint-look", Action::LookAtTarget), ("hint-face", Action::FaceTarget)] {
+        parts.extend(chases.then(|| prompts.with(key, [("button", action)])));
+    }
     parts.push(prompts.with("hint-seeing", [("button", Action::WhatAmISeeing)]));
     parts.push(prompts.with("hint-autopilot", [("button", Action::ToggleAutopilot)]));
     // A mission says by itself where to fly.

@@ -5,9 +5,9 @@ use bevy::prelude::*;
 
 use crate::play::missions::Ghost;
 use crate::play::session::Session;
-use crate::sim::bolts::Gun;
+use crate::sim::bolts::{Bolt, Gun};
 use crate::sim::goals::catch_radius;
-use crate::sim::{ActiveMission, Bolts, Chase, ChaseRules, Clock, Controls, Engine, Fleet, Fuel, History, Progress};
+use crate::sim::{ActiveMission, Bolts, Chase, ChaseRules, Clock, Controls, Engine, Fleet, Fuel, History, Progress, SimEvent};
 
 /// T of the frame, in r_s/c: at most a step before the clock's.
 pub fn time(clock: &Clock, fixed: &Time<Fixed>) -> f64 {
@@ -66,6 +66,13 @@ impl Now<'_, '_> {
     /// The player's gun, in a mission.
     pub fn gun(&self) -> Option<Gun> {
         self.fleet.0.get(self.session.player()).and_then(|&ship| self.guns.get(ship).ok()).copied()
+    }
+
+    /// The player's bolt of which this event tells that it hit.
+    pub fn bolt_that_hit(&self, event: &SimEvent) -> Option<&Bolt> {
+        let SimEvent::Hit { time, .. } = event else { return None };
+        let own = self.fleet.0.get(self.session.player())?;
+        self.bolts.0.iter().find(|bolt| bolt.owner == *own && bolt.ended == Some(*time))
     }
 
     /// How near the target must be to be caught, in r_s; None where the present goal is another.

@@ -110,7 +110,7 @@ use Allowed::{Buttons, Choice, Switch, Words};
 /// The actions that may be switched with a tap instead of held.
 pub const HELD: &[&str] = &[
     "thrust_forward", "thrust_back", "thrust_left", "thrust_right", "thrust_up", "thrust_down", "boost", "fire", "pitch_up", "pitch_down",
-    "yaw_left", "yaw_right", "roll_left", "roll_right", "look_at_target",
+    "yaw_left", "yaw_right", "roll_left", "roll_right", "look_at_target", "face_target",
 ];
 
 config! {
@@ -248,7 +248,8 @@ config! {
         toggle_autopilot: String = "KeyP PadNorth", Buttons, "", "autopilot on or off";
         toggle_camera: String = "KeyC PadWest", Buttons, "", "cockpit or third person";
         look_at_target: String = "KeyV PadLeftTrigger", Buttons, "", "look at the target while held";
-        toggle_hud: String = "KeyH PadDown", Buttons, "", "HUD on or off";
+        face_target: String = "KeyF PadDown", Buttons, "", "while held: nose to where thrust leads to the target, the assist rests";
+        toggle_hud: String = "KeyH", Buttons, "", "HUD on or off";
         toggle_overlay: String = "F3", Buttons, "", "dev overlay on or off";
         screenshot: String = "F12", Buttons, "", "write a picture";
         slower: String = "Comma PadLeftThumb", Buttons, "", "halve the pace";

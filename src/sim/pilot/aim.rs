@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::rollout::{PlannedBurn, Point, Span, advance, track};
-use crate::sim::bolts::{HIT_RADIUS, LIFE, bolt_momentum, nearest};
+use crate::sim::bolts::{HIT_RADIUS, LIFE, bolt_momentum, fired_by, nearest};
 use crate::spacetime::matter::ShipState;
 
 /// Step of a trial, in r_s/c.
@@ -131,6 +131,22 @@ impl Mark<'_> {
         }
         best
     }
+}
+
+/// How near a bolt fired now comes to a target that coasts, in r_s.
+pub fn shot_passes(own: &ShipState, target: &Point) -> f64 {
+    /// T of a piece, in r_s/c; between its ends both fly straight.
+    const STEP: f64 = 0.5;
+    let mut bolt = Point::from(&fired_by(own));
+    let mut other = *target;
+    let mut passes = f64::INFINITY;
+    for _ in 0..(LIFE / STEP) as usize {
+        let before = bolt.x - other.x;
+        bolt = advance(&bolt, STEP, 1.0, |_| DVec3::ZERO);
+        other = advance(&other, STEP, 1.0, |_| DVec3::ZERO);
+        passes = passes.min(nearest(before, bolt.x - other.x));
+    }
+    passes
 }
 
 /// Where the miss of a whole fan is least among its neighbours.

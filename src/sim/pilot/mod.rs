@@ -13,7 +13,7 @@ pub mod person;
 pub mod plan;
 pub mod rendezvous;
 pub mod rollout;
-mod steer;
+pub mod steer;
 
 use bevy::prelude::*;
 use glam::{DQuat, DVec3};

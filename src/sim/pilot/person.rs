@@ -13,11 +13,11 @@ use crate::sim::ChaseRules;
 use crate::sim::assist::{AssistMode, Stick};
 use crate::sim::bolts::{Gun, Trigger, nearest};
 use crate::sim::clock::Clock;
-use crate::sim::goals::{ActiveMission, Progress, catch_radius};
 use crate::sim::guidance::{Brake, approach, guidance};
+use crate::sim::intercept::{Intercept, MEETS, advised};
 use crate::sim::player_commands::{ManualControl, PlayerCommands};
 use crate::sim::ship::{Controls, Ended, Engine, Fleet, Manual, Pilot, PilotOrder, ShipMotion};
-use crate::sim::target::{Known, Target, Targets};
+use crate::sim::target::{Known, Targets};
 use crate::spacetime::matter::ShipState;
 
 /// From what is seen to what the hand does, in r_s/c: a third of a second at the usual pace.
@@ -37,10 +37,10 @@ const ON_MARK: f64 = 0.3;
 
 /// Nearer than this, in r_s, the target itself is aimed at.
 const NEAR: f64 = 4.0;
-/// Who passes within this share of the catch radius need not thrust.
-const MEETS: f64 = 0.6;
 /// Who passes farther off than this, in r_s, flies to the target itself.
 const CORRECTED: f64 = 3.0;
+/// A key is tapped for at least this share of full thrust.
+const GENTLE: f64 = 0.2;
 /// A way that comes nearer to the hole than this, in r_s, is flown round it, outward and along the motion.
 const CLEAR: f64 = 4.0;
 /// See [`CLEAR`]: outward, along the motion, along the orbit's axis.
@@ -128,6 +128,8 @@ struct View<'a> {
     image: Option<DVec3>,
     /// Within this of the target it is caught, in r_s.
     reach: f64,
+    /// Where to thrust is marked.
+    advised: bool,
     bolts: u32,
 }
 
@@ -155,7 +157,6 @@ type PersonShip<'a> =
 pub fn fly_as_person(
     (clock, fleet, commands, rules): (Res<Clock>, Res<Fleet>, Res<PlayerCommands>, Res<ChaseRules>),
     control: Option<Res<ManualControl>>,
-    (mission, progress): (Option<Res<ActiveMission>>, Option<Res<Progress>>),
     targets: Targets,
     mut ships: Query<PersonShip, (Without<Ended>, Without<Manual>)>,
 ) {
@@ -171,11 +172,9 @@ pub fn fly_as_person(
         if clock.time >= person.next {
             let bolts = gun.map_or(0, |gun| gun.left);
             let image = targets.image(entity, state, clock.time);
-            let reach = match targets.of(entity) {
-                Some(Target::Gate(_, radius)) => radius,
-                _ => catch_radius(mission.as_deref(), progress.as_deref(), &rules).unwrap_or(rules.0.capture_radius),
-            };
-            let view = View { state, order: pilot.order, engine: &engine, target: known(), image, reach, bolts };
+            let reach = targets.reach(entity).unwrap_or(rules.0.capture_radius);
+            let view =
+                View { state, order: pilot.order, engine: &engine, target: known(), image, reach, advised: targets.advises(entity), bolts };
             let action = person.decide(&view, clock.time);
             person.decided = Some((clock.time + slowed * REACTION, action));
             person.next = clock.time + slowed * person.pause();
@@ -223,23 +222,31 @@ impl Person {
         Action { nose, thrust, ..action }
     }
 
-    /// To the target: from afar by where both pass, near it by the brake sign and with the assist against the target.
+    /// To the target: by the mark "thrust" where there is one, at the brake sign with the key that matches its motion.
     fn meet(&mut self, view: &View, target: &Known) -> Action {
-        let state = view.state;
-        let guide = guidance(&Point::from(state), &target.point, view.engine.max_thrust, view.reach);
-        let nose = Some(guide.apart);
         if !self.skill.heeds {
             return self.pass(view, target);
         }
-        let assist = AssistMode::Target;
-        let caught = guide.apart.length() < view.reach;
+        let own = Point::from(view.state);
+        let guide = guidance(&own, &target.point, view.engine.max_thrust, view.reach);
+        let (nose, assist) = (Some(guide.apart), AssistMode::Target);
+        if guide.brake == Brake::Now || guide.apart.length() < view.reach {
+            return Action { nose, assist, matching: true, ..Action::default() };
+        }
+        if view.advised {
+            if approach(&own, target).is_some_and(|near| near.distance < MEETS * view.reach) {
+                return Action { nose, ..Action::default() };
+            }
+            if let Some(Intercept { push, .. }) = advised(&own, target, view.engine.max_thrust, view.reach) {
+                // As much as is missing until the next decision.
+                let strength = (push.length() / (view.engine.max_thrust * REACTION)).clamp(GENTLE, 1.0);
+                return Action { nose: Some(push), thrust: view.ahead(push) * strength, ..Action::default() };
+            }
+        }
         match guide.brake {
-            Brake::Now => Action { nose, assist, matching: true, ..Action::default() },
-            _ if caught => Action { nose, assist, matching: true, ..Action::default() },
             _ if guide.apart.length() > NEAR => self.pass(view, target),
-            Brake::Soon => Action { nose, assist, ..Action::default() },
-            Brake::Free if guide.closing() > FAST => Action { nose, assist, ..Action::default() },
-            Brake::Free => Action { nose, thrust: view.ahead(guide.apart), assist, ..Action::default() },
+            Brake::Free if guide.closing() < FAST => Action { nose, thrust: view.ahead(guide.apart), assist, ..Action::default() },
+            _ => Action { nose, assist, ..Action::default() },
         }
     }
 
@@ -249,7 +256,7 @@ impl Person {
         let own = Point::from(view.state);
         let apart = target.point.x - own.x;
         let closing = guidance(&own, &target.point, view.engine.max_thrust, view.reach).closing();
-        let near = approach(&own, &target.point).filter(|near| self.skill.heeds && near.distance < CORRECTED && !falls(&own));
+        let near = approach(&own, target).filter(|near| self.skill.heeds && near.distance < CORRECTED && !falls(&own));
         match near {
             Some(near) if near.distance < MEETS * view.reach => Action { nose: Some(apart), ..Action::default() },
             Some(near) => {
