@@ -207,10 +207,12 @@ fn read_commands(
     targets: Targets,
     ships: Query<(Entity, &ShipMotion, &Engine, &Turning), With<Player>>,
 ) {
-    let mut stick = input.stick();
+    let (mut stick, mut rests) = (input.stick(), false);
     for (ship, motion, engine, turning) in &ships {
         let mark = player.facing.then(|| targets.mark(ship, &motion.0, clock.time, engine.max_thrust)).flatten();
-        if let Some(mark) = mark {
+        if let Some((mark, is_on_its_way)) = mark {
+            // What leads to the target is a fall: the assist would fly another way.
+            rests = is_on_its_way && !player.matching();
             // Whoever asks for the mark does not steer aside.
             turn.take();
             stick.turn = turn_nose(mark, 1.0).with_z(stick.turn.z);
@@ -219,8 +221,7 @@ fn read_commands(
         stick.turn = turn.pull(stick.turn, engine, turning.0, clock.step / gamma(motion.0.momentum));
     }
     *commands = PlayerCommands {
-        // What leads to the target is a fall: the assist would fly another way.
-        assist: if player.facing && !player.matching() { AssistMode::Off } else { player.assisted(&session.config) },
+        assist: if rests { AssistMode::Off } else { player.assisted(&session.config) },
         matching: player.matching(),
         autopilot: player.autopilot,
         looking: player.looking,
@@ -351,6 +352,25 @@ pub(in crate::play) mod tests {
         (0..2).for_each(|_| app.update());
         assert!(!matching(&app));
         assert_eq!(assist(&app), AssistMode::Orbit);
+    }
+
+    /// Held, the key turns the nose to where thrust leads to the target, and the assist rests.
+    #[test]
+    fn the_key_of_the_mark_turns_the_nose_to_it() {
+        let mut app = playing();
+        press_key(&mut app, KeyCode::KeyF, ButtonState::Pressed);
+        (0..60).for_each(|_| app.update());
+        let commands = *app.world().resource::<PlayerCommands>();
+        assert_eq!(commands.assist, AssistMode::Off);
+        let on_mark = |targets: Targets, clock: Res<Clock>, ships: Query<(Entity, &ShipMotion, &Engine), With<Player>>| {
+            let (ship, motion, engine) = ships.single().expect("one player");
+            targets.mark(ship, &motion.0, clock.time, engine.max_thrust)
+        };
+        let (mark, is_on_its_way) = app.world_mut().run_system_cached(on_mark).expect("all resources are there").expect("a target");
+        assert!(is_on_its_way && mark.angle_between(glam::DVec3::NEG_Z) < 0.15, "{mark}");
+        press_key(&mut app, KeyCode::KeyF, ButtonState::Released);
+        (0..2).for_each(|_| app.update());
+        assert_eq!(app.world().resource::<PlayerCommands>().assist, AssistMode::Orbit);
     }
 
     /// The key and the menu begin as before, another start is another one.

@@ -13,7 +13,7 @@ use super::by_hand::Avoiding;
 use super::goals::{ActiveMission, Progress, needed};
 use super::guidance::{approach, guidance};
 use super::history::History;
-use super::intercept::Intercept;
+use super::intercept::{Advice, Intercept};
 use super::pilot::aim::shot_passes;
 use super::pilot::rollout::Point;
 use super::player_commands::{ManualControl, PlayerCommands};
@@ -355,7 +355,7 @@ type TargetKnown = (Known, Option<f64>, Option<Intercept>);
 fn known_target(In((own, state, time)): In<(Entity, ShipState, f64)>, targets: Targets, engines: Query<&Engine>) -> Option<TargetKnown> {
     let known = targets.known(own, &state, time)?;
     let thrust = engines.get(own).ok()?.max_thrust;
-    Some((known, targets.reach(own), targets.advice(own, &state, &known, thrust)))
+    Some((known, targets.reach(own), targets.advice(own, &state, &known, thrust).and_then(Advice::thrust)))
 }
 
 fn goal(world: &World) -> Option<GoalSeen> {

@@ -45,11 +45,29 @@ pub struct Intercept {
 /// Whoever passes within this share of the catch radius need not thrust.
 pub const MEETS: f64 = 0.6;
 
-/// Where `own` has to thrust, with an engine of `thrust` (c²/r_s), to come within `reach` (r_s) of a ship that is to be flown with. None
-/// where its fall leads there, or none does.
-pub fn advised(own: &Point, known: &Known, thrust: f64, reach: f64) -> Option<Intercept> {
+/// What leads to a ship that is to be flown with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Advice {
+    /// The fall does already.
+    Coast,
+    /// Thrust.
+    Thrust(Intercept),
+}
+
+/// What leads `own`, with an engine of `thrust` (c²/r_s), within `reach` (r_s) of a ship that is to be flown with. None where no fall does.
+pub fn advised(own: &Point, known: &Known, thrust: f64, reach: f64) -> Option<Advice> {
     let meets = approach(own, known).is_some_and(|near| near.distance < MEETS * reach);
-    if meets { None } else { intercept(own, known, thrust) }
+    if meets { Some(Advice::Coast) } else { intercept(own, known, thrust).map(Advice::Thrust) }
+}
+
+impl Advice {
+    /// The thrust that it asks for.
+    pub fn thrust(self) -> Option<Intercept> {
+        match self {
+            Advice::Coast => None,
+            Advice::Thrust(intercept) => Some(intercept),
+        }
+    }
 }
 
 /// A meeting in linear approximation.

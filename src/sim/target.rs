@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::goals::{ActiveMission, Progress, catch_radius};
 use super::history::History;
-use super::intercept::{Intercept, advised};
+use super::intercept::{Advice, advised};
 use super::pilot::rollout::{PlannedBurn, Point, flown};
 use super::rules::{Chase, ChaseRules};
 use super::ship::{Pilot, PilotOrder};
@@ -112,19 +112,19 @@ impl Targets<'_, '_> {
         matches!(self.of(own), Some(Target::Ship(_))) && !inside
     }
 
-    /// Where `own`, with an engine of `thrust` (c²/r_s), has to thrust to meet the ship that it is after.
-    pub fn advice(&self, own: Entity, state: &ShipState, known: &Known, thrust: f64) -> Option<Intercept> {
+    /// What leads `own`, with an engine of `thrust` (c²/r_s), to the ship that it is after. None where nothing is advised.
+    pub fn advice(&self, own: Entity, state: &ShipState, known: &Known, thrust: f64) -> Option<Advice> {
         let reach = self.reach(own).filter(|_| self.advises(own))?;
         advised(&Point::from(state), known, thrust, reach)
     }
 
-    /// Where the nose of `own` is of most use, on body axes: where thrust leads to what it is after, else to where that is now as far as is
-    /// known.
-    pub fn mark(&self, own: Entity, state: &ShipState, time: f64, thrust: f64) -> Option<DVec3> {
+    /// Where the nose of `own` is of most use, a unit vector on body axes: where thrust leads to what it is after, else to where that is now
+    /// as far as is known. And whether a fall leads there.
+    pub fn mark(&self, own: Entity, state: &ShipState, time: f64, thrust: f64) -> Option<(DVec3, bool)> {
         let known = self.known(own, state, time)?;
         let advice = self.advice(own, state, &known, thrust);
-        let towards = advice.map_or(known.point.x - state.position, |advice| advice.push);
-        towards.try_normalize().map(|towards| state.attitude.conjugate() * towards)
+        let towards = advice.and_then(Advice::thrust).map_or(known.point.x - state.position, |intercept| intercept.push);
+        Some((state.attitude.conjugate() * towards.try_normalize()?, advice.is_some()))
     }
 
     /// Whether the mission tells where ships are now.

@@ -6,7 +6,7 @@ use lensrunner::scene::GameConfig;
 use lensrunner::sim::assist::{AssistMode, AssistSettings, Reference, Stick, drift};
 use lensrunner::sim::flight::{Command, Flight, fly};
 use lensrunner::sim::guidance::{Brake, approach, guidance, meets};
-use lensrunner::sim::intercept::{advised, intercept};
+use lensrunner::sim::intercept::{Advice, advised, intercept};
 use lensrunner::sim::pilot::rollout::Point;
 use lensrunner::sim::target::{Known, known, resting};
 use lensrunner::sim::{Engine, History, PlayerCommands};
@@ -179,7 +179,9 @@ fn who_follows_mark_and_sign_holds_the_target() {
             let command = if near || guide.brake == Brake::Now {
                 matches.command(&own, &engine(), Some(known.point.velocity()), &settings).command
             } else {
-                let push = advised(&point, &known, engine().max_thrust, REACH).map_or(DVec3::ZERO, |advice| advice.push / STEP);
+                let push = advised(&point, &known, engine().max_thrust, REACH)
+                    .and_then(Advice::thrust)
+                    .map_or(DVec3::ZERO, |advice| advice.push / STEP);
                 Command { thrust: own.attitude.conjugate() * push.clamp_length_max(engine().max_thrust), rates: DVec3::ZERO }
             };
             spent += command.thrust.length() * STEP;

@@ -161,7 +161,7 @@ fn is_due(hint: Hint, panel: &Panel, mode: AssistMode, hopeless: bool, inside: b
             let drifts = |(guide, reach): (Guidance, f64)| {
                 guide.brake != Brake::Now && guide.sideways() > DRIFT.0 && guide.apart.length() < DRIFT.1 * reach
             };
-            mode != AssistMode::Target && target.is_some_and(drifts)
+            mode != AssistMode::Target && panel.thrust.is_none() && target.is_some_and(drifts)
         }
         Hint::Fuel => read.fuel.is_some_and(|share| share > 0.0 && share < LOW_FUEL),
     }

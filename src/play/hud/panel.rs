@@ -14,7 +14,7 @@ use crate::scene::disk::Gas;
 use crate::scene::mission::GoalTask;
 use crate::sim::Outcome;
 use crate::sim::guidance::{Brake, Guidance, guidance};
-use crate::sim::intercept::{Intercept, advised};
+use crate::sim::intercept::{Advice, Intercept, advised};
 use crate::sim::pilot::aim::{AimMarks, shot_passes};
 use crate::sim::pilot::rollout::Point;
 use crate::sim::seeing::{Phenomenon, Pointer, Scenery, SeenBody, Track, pointers};
@@ -212,7 +212,10 @@ pub(in crate::play) fn read_panel(
     let reach = now.reach();
     if slow.is_due(time, real.elapsed_secs_f64(), (gate.map(|gate| gate.number), reach)) {
         let meets = known.filter(|_| gate.is_none() && now.mission.as_ref().is_none_or(|mission| !mission.0.inside));
-        slow.advice = meets.zip(reach).and_then(|(known, reach)| advised(&Point::from(&state), &known, engine.max_thrust, reach));
+        slow.advice = meets
+            .zip(reach)
+            .and_then(|(known, reach)| advised(&Point::from(&state), &known, engine.max_thrust, reach))
+            .and_then(Advice::thrust);
         slow.shot_passes = gun.zip(known).map(|(_, known)| shot_passes(&state, &known.point));
     }
     let guidance = known.map(|known| guidance(&Point::from(&state), &known.point, engine.max_thrust, reach.unwrap_or(0.0)));

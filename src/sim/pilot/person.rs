@@ -14,7 +14,7 @@ use crate::sim::assist::{AssistMode, Stick};
 use crate::sim::bolts::{Gun, Trigger, nearest};
 use crate::sim::clock::Clock;
 use crate::sim::guidance::{Brake, approach, guidance};
-use crate::sim::intercept::{Intercept, MEETS, advised};
+use crate::sim::intercept::{Advice, Intercept, MEETS, advised};
 use crate::sim::player_commands::{ManualControl, PlayerCommands};
 use crate::sim::ship::{Controls, Ended, Engine, Fleet, Manual, Pilot, PilotOrder, ShipMotion};
 use crate::sim::target::{Known, Targets};
@@ -233,15 +233,14 @@ impl Person {
         if guide.brake == Brake::Now || guide.apart.length() < view.reach {
             return Action { nose, assist, matching: true, ..Action::default() };
         }
-        if view.advised {
-            if approach(&own, target).is_some_and(|near| near.distance < MEETS * view.reach) {
-                return Action { nose, ..Action::default() };
-            }
-            if let Some(Intercept { push, .. }) = advised(&own, target, view.engine.max_thrust, view.reach) {
+        match advised(&own, target, view.engine.max_thrust, view.reach).filter(|_| view.advised) {
+            Some(Advice::Coast) => return Action { nose, ..Action::default() },
+            Some(Advice::Thrust(Intercept { push, .. })) => {
                 // As much as is missing until the next decision.
                 let strength = (push.length() / (view.engine.max_thrust * REACTION)).clamp(GENTLE, 1.0);
                 return Action { nose: Some(push), thrust: view.ahead(push) * strength, ..Action::default() };
             }
+            None => (),
         }
         match guide.brake {
             _ if guide.apart.length() > NEAR => self.pass(view, target),
