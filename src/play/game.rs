@@ -207,12 +207,12 @@ fn read_commands(
     targets: Targets,
     ships: Query<(Entity, &ShipMotion, &Engine, &Turning), With<Player>>,
 ) {
-    let (mut stick, mut rests) = (input.stick(), false);
+    let (mut stick, mut assist) = (input.stick(), player.assisted(&session.config));
     for (ship, motion, engine, turning) in &ships {
         let mark = player.facing.then(|| targets.mark(ship, &motion.0, clock.time, engine.max_thrust)).flatten();
         if let Some((mark, is_on_its_way)) = mark {
-            // What leads to the target is a fall: the assist would fly another way.
-            rests = is_on_its_way && !player.matching();
+            // From afar a fall leads to the target, and the assist would fly another way; near it drift against it is to fade.
+            assist = if is_on_its_way && !player.matching() { AssistMode::Off } else { AssistMode::Target };
             // Whoever asks for the mark does not steer aside.
             turn.take();
             stick.turn = turn_nose(mark, 1.0).with_z(stick.turn.z);
@@ -221,7 +221,7 @@ fn read_commands(
         stick.turn = turn.pull(stick.turn, engine, turning.0, clock.step / gamma(motion.0.momentum));
     }
     *commands = PlayerCommands {
-        assist: if rests { AssistMode::Off } else { player.assisted(&session.config) },
+        assist,
         matching: player.matching(),
         autopilot: player.autopilot,
         looking: player.looking,

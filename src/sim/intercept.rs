@@ -54,8 +54,15 @@ pub enum Advice {
     Thrust(Intercept),
 }
 
-/// What leads `own`, with an engine of `thrust` (c²/r_s), within `reach` (r_s) of a ship that is to be flown with. None where no fall does.
+/// Nearer than this, in r_s, one flies to the target itself: it has no time to be elsewhere, and its own thrust counts more than a fall.
+pub const NEAR: f64 = 4.0;
+
+/// What leads `own`, with an engine of `thrust` (c²/r_s), within `reach` (r_s) of a ship that is to be flown with. None where no fall does,
+/// and near it.
 pub fn advised(own: &Point, known: &Known, thrust: f64, reach: f64) -> Option<Advice> {
+    if own.x.distance(known.point.x) < NEAR {
+        return None;
+    }
     let meets = approach(own, known).is_some_and(|near| near.distance < MEETS * reach);
     if meets { Some(Advice::Coast) } else { intercept(own, known, thrust).map(Advice::Thrust) }
 }

@@ -14,7 +14,7 @@ use crate::sim::assist::{AssistMode, Stick};
 use crate::sim::bolts::{Gun, Trigger, nearest};
 use crate::sim::clock::Clock;
 use crate::sim::guidance::{Brake, approach, guidance};
-use crate::sim::intercept::{Advice, Intercept, MEETS, advised};
+use crate::sim::intercept::{Advice, Intercept, MEETS, NEAR, advised};
 use crate::sim::player_commands::{ManualControl, PlayerCommands};
 use crate::sim::ship::{Controls, Ended, Engine, Fleet, Manual, Pilot, PilotOrder, ShipMotion};
 use crate::sim::target::{Known, Targets};
@@ -35,8 +35,6 @@ const NOISE: f64 = 0.1;
 /// Nearer than this the nose is on its mark, in radians; before, a person only turns.
 const ON_MARK: f64 = 0.3;
 
-/// Nearer than this, in r_s, the target itself is aimed at.
-const NEAR: f64 = 4.0;
 /// Who passes farther off than this, in r_s, flies to the target itself.
 const CORRECTED: f64 = 3.0;
 /// A key is tapped for at least this share of full thrust.
@@ -257,7 +255,11 @@ impl Person {
         let closing = guidance(&own, &target.point, view.engine.max_thrust, view.reach).closing();
         let near = approach(&own, target).filter(|near| self.skill.heeds && near.distance < CORRECTED && !falls(&own));
         match near {
-            Some(near) if near.distance < MEETS * view.reach => Action { nose: Some(apart), ..Action::default() },
+            Some(near) if near.distance < MEETS * view.reach => {
+                // To a gate one need not come slowly.
+                let thrust = if target.rests && closing < FAST { view.ahead(apart) } else { DVec3::ZERO };
+                Action { nose: Some(apart), thrust, ..Action::default() }
+            }
             Some(near) => {
                 let way = near.places[1] - near.places[0];
                 Action { nose: Some(way), thrust: view.ahead(way), ..Action::default() }
