@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::assist::{Reference, drift};
 use super::bolts::nearest;
+use super::known::Known;
 use super::pilot::rollout::{Point, advance};
-use super::target::Known;
 use crate::spacetime::matter::ShipState;
 
 /// Motion of a ship against its target, on the slice T = const.
@@ -40,6 +40,8 @@ const SOON: f64 = 0.7;
 /// While braking needs less than this share of the distance there is time, wherever the motion leads: who drifts slowly past from afar has
 /// a course to mend, not to brake.
 const EARLY: f64 = 0.12;
+/// Who passes the target farther off than this along their motion, in r_s, has a course to mend as well.
+const WIDE: f64 = 2.5;
 /// Slower than this against the target, in c, nobody need brake.
 const SLOW: f64 = 0.02;
 /// The way of braking ends this share of the catch radius before the target, and at most so far, in r_s: who drifts past a wide one need
@@ -98,6 +100,7 @@ pub fn guidance(own: &Point, target: &Point, thrust: f64, reach: f64) -> Guidanc
         // Past it: what helps then is thrust towards it.
         () if apart.dot(velocity) < 0.0 && apart.length() > reach => Brake::Free,
         () if needed < EARLY * apart.length() => Brake::Free,
+        () if apart.reject_from(velocity).length() > WIDE.max(reach) => Brake::Free,
         () if needed >= room => Brake::Now,
         () if needed >= SOON * room => Brake::Soon,
         () => Brake::Free,

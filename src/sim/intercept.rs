@@ -8,8 +8,8 @@
 use glam::{DMat3, DVec3};
 
 use super::guidance::approach;
+use super::known::Known;
 use super::pilot::rollout::{Point, advance};
-use super::target::Known;
 use crate::spacetime::matter::boosted_acceleration;
 
 /// How far ahead meetings are looked for, in r_s/c, and in how many steps.

@@ -17,6 +17,7 @@ pub mod guidance;
 pub mod hash;
 pub mod history;
 pub mod intercept;
+pub mod known;
 pub mod moment;
 pub mod physics;
 pub mod pilot;

@@ -7,8 +7,8 @@ use lensrunner::sim::assist::{AssistMode, AssistSettings, Reference, Stick, drif
 use lensrunner::sim::flight::{Command, Flight, fly};
 use lensrunner::sim::guidance::{Brake, approach, guidance, meets};
 use lensrunner::sim::intercept::{advised, intercept};
+use lensrunner::sim::known::{Known, known, resting};
 use lensrunner::sim::pilot::rollout::Point;
-use lensrunner::sim::target::{Known, known, resting};
 use lensrunner::sim::{Engine, History, PlayerCommands};
 use lensrunner::spacetime::matter::ShipState;
 use lensrunner::spacetime::orbit::circular_orbit;
@@ -80,6 +80,12 @@ fn the_sign_comes_in_order_and_not_without_need() {
     assert_eq!([4.0, 1.6, 1.3].map(|from| at(from).brake), [Brake::Free, Brake::Soon, Brake::Now]);
     let parting = at(-2.0);
     assert!(parting.brake == Brake::Free && parting.closing() < -0.29, "{parting:?}");
+    let wide = {
+        let [mut hunter, target] = closing(1e4, 0.3, 1.3).map(|state| Point::from(&state));
+        hunter.x.z += 3.0;
+        guidance(&hunter, &target, 0.06, REACH)
+    };
+    assert!(wide.brake == Brake::Free, "{wide:?}");
     let [hunter, target] = closing(1e4, 0.0, 2.0).map(|state| Point::from(&state));
     let still = guidance(&hunter, &target, 0.06, REACH);
     assert!(still.brake == Brake::Free && still.sideways() < 1e-3, "{still:?}");

@@ -15,9 +15,10 @@ use crate::sim::bolts::{Gun, Trigger, nearest};
 use crate::sim::clock::Clock;
 use crate::sim::guidance::{Brake, approach, guidance};
 use crate::sim::intercept::{Advice, Intercept, MEETS, NEAR, advised};
+use crate::sim::known::Known;
 use crate::sim::player_commands::{ManualControl, PlayerCommands};
 use crate::sim::ship::{Controls, Ended, Engine, Fleet, Manual, Pilot, PilotOrder, ShipMotion};
-use crate::sim::target::{Known, Targets};
+use crate::sim::target::Targets;
 use crate::spacetime::matter::ShipState;
 
 /// From what is seen to what the hand does, in r_s/c: a third of a second at the usual pace.
