@@ -4,6 +4,7 @@ use bevy::prelude::*;
 
 use crate::sim::assist::AssistMode;
 use crate::sim::by_hand::choose_pilot;
+use crate::sim::intercept::Way;
 use crate::sim::pilot::steer::turn_nose;
 use crate::sim::replay::Playback;
 use crate::sim::ship::Player;
@@ -205,14 +206,18 @@ fn read_commands(
     (mut player, mut turn): (ResMut<PlayerState>, ResMut<MouseTurn>),
     mut commands: ResMut<PlayerCommands>,
     targets: Targets,
-    ships: Query<(Entity, &ShipMotion, &Engine, &Turning), With<Player>>,
+    mut ships: Query<(Entity, &ShipMotion, &Engine, &Turning, &mut Way), With<Player>>,
 ) {
     let (mut stick, mut assist) = (input.stick(), player.assisted(&session.config));
-    for (ship, motion, engine, turning) in &ships {
-        let mark = player.facing.then(|| targets.mark(ship, &motion.0, clock.time, engine.max_thrust)).flatten();
+    for (ship, motion, engine, turning, mut way) in &mut ships {
+        let mark = player.facing.then(|| targets.mark((ship, &mut way), &motion.0, clock.time, engine.max_thrust)).flatten();
         if let Some((mark, is_on_its_way)) = mark {
             // From afar a fall leads to the target, and the assist would fly another way; near it drift against it is to fade.
-            assist = if is_on_its_way && !player.matching() { AssistMode::Off } else { AssistMode::Target };
+            assist = match assist {
+                AssistMode::Off => AssistMode::Off,
+                _ if is_on_its_way && !player.matching() => AssistMode::Off,
+                _ => AssistMode::Target,
+            };
             // Whoever asks for the mark does not steer aside.
             turn.take();
             stick.turn = turn_nose(mark, 1.0).with_z(stick.turn.z);
@@ -364,7 +369,7 @@ pub(in crate::play) mod tests {
         assert_eq!(commands.assist, AssistMode::Off);
         let on_mark = |targets: Targets, clock: Res<Clock>, ships: Query<(Entity, &ShipMotion, &Engine), With<Player>>| {
             let (ship, motion, engine) = ships.single().expect("one player");
-            targets.mark(ship, &motion.0, clock.time, engine.max_thrust)
+            targets.mark((ship, &mut Way::default()), &motion.0, clock.time, engine.max_thrust)
         };
         let (mark, is_on_its_way) = app.world_mut().run_system_cached(on_mark).expect("all resources are there").expect("a target");
         assert!(is_on_its_way && mark.angle_between(glam::DVec3::NEG_Z) < 0.15, "{mark}");

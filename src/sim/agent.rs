@@ -13,7 +13,7 @@ use super::by_hand::Avoiding;
 use super::goals::{ActiveMission, Progress, needed};
 use super::guidance::{approach, guidance};
 use super::history::History;
-use super::intercept::{Advice, Intercept};
+use super::intercept::{Advice, Intercept, Way};
 use super::known::Known;
 use super::pilot::aim::shot_passes;
 use super::pilot::rollout::Point;
@@ -353,10 +353,15 @@ fn target_seen(world: &mut World, own: Entity, state: &ShipState) -> Option<Targ
 /// What is known of the target, how near it must be, and where to thrust.
 type TargetKnown = (Known, Option<f64>, Option<Intercept>);
 
-fn known_target(In((own, state, time)): In<(Entity, ShipState, f64)>, targets: Targets, engines: Query<&Engine>) -> Option<TargetKnown> {
+fn known_target(
+    In((own, state, time)): In<(Entity, ShipState, f64)>,
+    targets: Targets,
+    mut ships: Query<(&Engine, &mut Way)>,
+) -> Option<TargetKnown> {
     let known = targets.known(own, &state, time)?;
-    let thrust = engines.get(own).ok()?.max_thrust;
-    Some((known, targets.reach(own), targets.advice(own, &state, &known, thrust).and_then(Advice::thrust)))
+    let (engine, mut way) = ships.get_mut(own).ok()?;
+    let advice = targets.advice((own, &mut way), &state, &known, time, engine.max_thrust);
+    Some((known, targets.reach(own), advice.and_then(Advice::thrust)))
 }
 
 fn goal(world: &World) -> Option<GoalSeen> {

@@ -10,7 +10,7 @@ use crate::spacetime::metric::river_speed;
 use crate::spacetime::orbit::{circular_momentum, static_momentum};
 
 use super::flight::Command;
-use super::pilot::rollout::{Point, advance};
+use super::pilot::rollout::{Point, coast};
 use super::ship::Engine;
 
 /// What the flight assist holds to.
@@ -178,7 +178,7 @@ fn falls_below(state: &ShipState, radius: f64) -> bool {
     let mut point = Point::from(state);
     let h = LOOK_AHEAD.0 / LOOK_AHEAD.1 as f64;
     (0..LOOK_AHEAD.1).any(|_| {
-        point = advance(&point, h, 1.0, |_| DVec3::ZERO);
+        point = coast(&point, h);
         point.x.length_squared() < radius * radius
     })
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::assist::{Reference, drift};
 use super::bolts::nearest;
 use super::known::Known;
-use super::pilot::rollout::{Point, advance};
+use super::pilot::rollout::{Point, advance, coast};
 use crate::spacetime::matter::ShipState;
 
 /// Motion of a ship against its target, on the slice T = const.
@@ -73,7 +73,7 @@ fn stopping(own: &Point, target: &Point, thrust: f64) -> f64 {
         let rest = target_then.velocity();
         let brakes = |at: &Point| drift(&ShipState::new(at.x, at.p), Reference::Target(rest)).normalize_or_zero() * -thrust;
         let apart = own_then.x - target_then.x;
-        [own_then, target_then] = [advance(&own_then, step, 1.0, brakes), advance(&target_then, step, 1.0, |_| DVec3::ZERO)];
+        [own_then, target_then] = [advance(&own_then, step, 1.0, brakes), coast(&target_then, step)];
         let left = (own_then.velocity() - target_then.velocity()).dot(along);
         if left <= 0.0 {
             // It stops within this step.
@@ -126,7 +126,7 @@ pub fn meets(own: &Point, target: &Point, span: f64, reach: f64) -> bool {
     let (mut own, mut target) = (*own, *target);
     (0..(span / step).ceil().max(0.0) as usize).any(|_| {
         let before = own.x - target.x;
-        [own, target] = [own, target].map(|point| advance(&point, step, 1.0, |_| DVec3::ZERO));
+        [own, target] = [own, target].map(|point| coast(&point, step));
         nearest(before, own.x - target.x) <= reach
     })
 }
@@ -148,12 +148,11 @@ pub struct Approach {
 /// The nearest approach of one that coasts to what it is after; None if they part from now on.
 pub fn approach(own: &Point, known: &Known) -> Option<Approach> {
     let step = AHEAD.0 / AHEAD.1 as f64;
-    let coasts = |point: &Point| advance(point, step, 1.0, |_| DVec3::ZERO);
     let (mut own, mut target) = (*own, known.point);
     let (mut best, mut nearest) = (None, own.x.distance(target.x));
     for k in 1..=AHEAD.1 {
-        own = coasts(&own);
-        target = if known.rests { target } else { coasts(&target) };
+        own = coast(&own, step);
+        target = if known.rests { target } else { coast(&target, step) };
         let distance = own.x.distance(target.x);
         if distance < nearest {
             nearest = distance;

@@ -5,15 +5,18 @@
 //! transition matrix, e.g. Battin, *An Introduction to the Mathematics and Methods of Astrodynamics*, chapter 11). What is not linear is
 //! flown and corrected. The fall is that round the hole, not Newton's.
 
+use bevy::ecs::component::Component;
 use glam::{DMat3, DVec3};
 
 use super::guidance::approach;
 use super::known::Known;
-use super::pilot::rollout::{Point, advance};
+use super::pilot::rollout::{Point, coast};
 use crate::spacetime::matter::boosted_acceleration;
 
-/// How far ahead meetings are looked for, in r_s/c, and in how many steps.
-const AHEAD: (f64, usize) = (48.0, 32);
+/// Meetings are looked for at so many later times.
+const STEPS: usize = 32;
+/// Between two of them, in r_s/c.
+const STEP: f64 = 1.5;
 /// A small push, in c: what is linear and well above rounding.
 const PUSH: f64 = 1e-3;
 /// A larger push than this, in c, is none that a person flies.
@@ -24,6 +27,9 @@ const LOWEST: f64 = 2.3;
 const BURN: f64 = 0.5;
 /// What a r_s/c of waiting counts for, in c: whoever is chased does not wait.
 const HASTE: f64 = 0.025;
+/// The way that one is on already counts for so much less, in c: to turn to another costs time, and two that are as cheap would change
+/// places.
+const KEPT: f64 = 0.05;
 /// So many of the cheapest ways are flown, so many steps apart.
 const TRIED: usize = 5;
 /// See [`TRIED`].
@@ -58,13 +64,45 @@ pub enum Advice {
 pub const NEAR: f64 = 4.0;
 
 /// What leads `own`, with an engine of `thrust` (c²/r_s), within `reach` (r_s) of a ship that is to be flown with. None where no fall does,
-/// and near it.
-pub fn advised(own: &Point, known: &Known, thrust: f64, reach: f64) -> Option<Advice> {
+/// and near it. `kept`: see [`intercept`].
+pub fn advised(own: &Point, known: &Known, thrust: f64, reach: f64, kept: Option<f64>) -> Option<Advice> {
     if own.x.distance(known.point.x) < NEAR {
         return None;
     }
     let meets = approach(own, known).is_some_and(|near| near.distance < MEETS * reach);
-    if meets { Some(Advice::Coast) } else { intercept(own, known, thrust).map(Advice::Thrust) }
+    if meets { Some(Advice::Coast) } else { intercept(own, known, thrust, kept).map(Advice::Thrust) }
+}
+
+/// The way that a ship is on to its target. It is found anew now and then, and one stays on it until another is clearly better.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub struct Way {
+    /// T when it was found, in r_s/c.
+    found: f64,
+    /// Within this of the target it ends, in r_s.
+    reach: f64,
+    /// T of the meeting, in r_s/c, while there is one.
+    meets: Option<f64>,
+    advice: Option<Advice>,
+}
+
+/// How long a way is held for found, in r_s/c: a tenth of a second at the usual pace. Frames ask before the step that ends them.
+const FOUND: f64 = 0.15;
+/// Who has not asked for so long, in r_s/c, is on no way.
+const LEFT: f64 = 2.0;
+
+impl Way {
+    /// [`advised`] at T = `time`, staying on the way.
+    pub fn follow(&mut self, own: &Point, known: &Known, time: f64, thrust: f64, reach: f64) -> Option<Advice> {
+        let since = time - self.found;
+        let is_same = self.reach == reach;
+        if !is_same || !(-FOUND..FOUND).contains(&since) {
+            let kept = self.meets.filter(|_| is_same && (-FOUND..LEFT).contains(&since)).map(|meets| meets - time);
+            let advice = advised(own, known, thrust, reach, kept);
+            let meets = advice.and_then(Advice::thrust).map(|intercept| time + intercept.ahead);
+            *self = Way { found: time, reach, meets, advice };
+        }
+        self.advice
+    }
 }
 
 impl Advice {
@@ -86,9 +124,13 @@ struct Meeting {
 }
 
 /// The cheapest way of `own`, with an engine of `thrust` (c²/r_s), to what it is after, where its motion has to be taken away. None where
-/// no fall leads there.
-pub fn intercept(own: &Point, known: &Known, thrust: f64) -> Option<Intercept> {
+/// no fall leads there. One that is on a way that meets in `kept` r_s/c stays on it until another is clearly cheaper.
+pub fn intercept(own: &Point, known: &Known, thrust: f64, kept: Option<f64>) -> Option<Intercept> {
     let mut left = meetings(own, known, thrust);
+    for meeting in &mut left {
+        let is_kept = kept.is_some_and(|kept| (meeting.found.ahead - kept).abs() <= APART as f64 * STEP);
+        meeting.cost -= if is_kept { KEPT } else { 0.0 };
+    }
     left.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     for _ in 0..TRIED {
         let meeting = left.first()?;
@@ -102,25 +144,20 @@ pub fn intercept(own: &Point, known: &Known, thrust: f64) -> Option<Intercept> {
     None
 }
 
-/// A step of both.
-fn coasts(point: &Point) -> Point {
-    advance(point, AHEAD.0 / AHEAD.1 as f64, 1.0, |_| DVec3::ZERO)
-}
-
 /// All meetings within reach of the engine, one for each time.
 fn meetings(own: &Point, known: &Known, thrust: f64) -> Vec<Meeting> {
     let (mut own, mut pushed, mut target) = (*own, DVec3::AXES.map(|axis| after(own, axis * PUSH)), known.point);
     let mut meetings = Vec::new();
-    for steps in 1..=AHEAD.1 {
-        own = coasts(&own);
-        pushed = pushed.map(|point| coasts(&point));
-        target = if known.rests { target } else { coasts(&target) };
+    for steps in 1..=STEPS {
+        own = coast(&own, STEP);
+        pushed = pushed.map(|point| coast(&point, STEP));
+        target = if known.rests { target } else { coast(&target, STEP) };
         let change = |of: &dyn Fn(&Point) -> DVec3| {
             let [a, b, c] = pushed.map(|point| (of(&point) - of(&own)) / PUSH);
             DMat3::from_cols(a, b, c)
         };
         let push = change(&|point| point.x).inverse() * (target.x - own.x);
-        let ahead = steps as f64 * AHEAD.0 / AHEAD.1 as f64;
+        let ahead = steps as f64 * STEP;
         if !push.is_finite() || push.length() > LARGEST.min(BURN * thrust * ahead) {
             continue;
         }
@@ -140,8 +177,8 @@ fn corrected(own: &Point, meeting: &Meeting) -> Option<Intercept> {
         let mut pushed = DVec3::AXES.map(|axis| after(own, push + axis * PUSH));
         let mut is_low = false;
         for _ in 0..meeting.steps {
-            point = coasts(&point);
-            pushed = pushed.map(|point| coasts(&point));
+            point = coast(&point, STEP);
+            pushed = pushed.map(|point| coast(&point, STEP));
             is_low |= point.x.length_squared() < lowest;
         }
         let miss = meeting.place - point.x;

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::goals::{ActiveMission, Progress, catch_radius};
 use super::history::History;
-use super::intercept::{Advice, advised};
+use super::intercept::{Advice, Way};
 use super::known::{Known, eye, known, resting};
 use super::pilot::rollout::Point;
 use super::rules::{Chase, ChaseRules};
@@ -73,24 +73,19 @@ impl Targets<'_, '_> {
         }
     }
 
-    /// Whether thrust to what `own` is after is advised: to a ship that is to be flown with outside the horizon. Through a gate one flies,
-    /// and inside there is no time to meet.
-    pub fn advises(&self, own: Entity) -> bool {
+    /// What leads `own`, with an engine of `thrust` (c²/r_s), to the ship that it is after, and is known so at T = `time`. None where nothing
+    /// is advised: only to a ship that is to be flown with outside the horizon. Through a gate one flies, and inside there is no time to meet.
+    pub fn advice(&self, (own, way): (Entity, &mut Way), state: &ShipState, known: &Known, time: f64, thrust: f64) -> Option<Advice> {
         let inside = self.mission.as_ref().is_some_and(|mission| mission.0.inside);
-        matches!(self.of(own), Some(Target::Ship(_))) && !inside
-    }
-
-    /// What leads `own`, with an engine of `thrust` (c²/r_s), to the ship that it is after. None where nothing is advised.
-    pub fn advice(&self, own: Entity, state: &ShipState, known: &Known, thrust: f64) -> Option<Advice> {
-        let reach = self.reach(own).filter(|_| self.advises(own))?;
-        advised(&Point::from(state), known, thrust, reach)
+        let Some(Target::Ship(_)) = self.of(own).filter(|_| !inside) else { return None };
+        way.follow(&Point::from(state), known, time, thrust, self.reach(own)?)
     }
 
     /// Where the nose of `own` is of most use, a unit vector on body axes: where thrust leads to what it is after, else to where that is now
     /// as far as is known. And whether a fall leads there.
-    pub fn mark(&self, own: Entity, state: &ShipState, time: f64, thrust: f64) -> Option<(DVec3, bool)> {
+    pub fn mark(&self, (own, way): (Entity, &mut Way), state: &ShipState, time: f64, thrust: f64) -> Option<(DVec3, bool)> {
         let known = self.known(own, state, time)?;
-        let advice = self.advice(own, state, &known, thrust);
+        let advice = self.advice((own, way), state, &known, time, thrust);
         let towards = advice.and_then(Advice::thrust).map_or(known.point.x - state.position, |intercept| intercept.push);
         Some((state.attitude.conjugate() * towards.try_normalize()?, advice.is_some()))
     }

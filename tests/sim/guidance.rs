@@ -6,7 +6,7 @@ use lensrunner::scene::GameConfig;
 use lensrunner::sim::assist::{AssistMode, AssistSettings, Reference, Stick, drift};
 use lensrunner::sim::flight::{Command, Flight, fly};
 use lensrunner::sim::guidance::{Brake, approach, guidance, meets};
-use lensrunner::sim::intercept::{advised, intercept};
+use lensrunner::sim::intercept::{Way, intercept};
 use lensrunner::sim::known::{Known, known, resting};
 use lensrunner::sim::pilot::rollout::Point;
 use lensrunner::sim::{Engine, History, PlayerCommands};
@@ -153,7 +153,7 @@ fn a_push_to_the_mark_leads_to_the_target() {
         for share in [0.5, 0.5, 1.0] {
             let known = Known { point: Point::from(&target), age: 0.0, rests: false };
             // An engine that gives any push.
-            let advice = intercept(&Point::from(&own), &known, 9.0).unwrap_or_else(|| panic!("{radius} {phase}: no way"));
+            let advice = intercept(&Point::from(&own), &known, 9.0, None).unwrap_or_else(|| panic!("{radius} {phase}: no way"));
             own = flown(&flown(&own, PUSH, advice.push / PUSH), share * advice.ahead - PUSH, DVec3::ZERO);
             target = flown(&target, share * advice.ahead, DVec3::ZERO);
         }
@@ -173,7 +173,8 @@ fn who_follows_mark_and_sign_holds_the_target() {
         let turn = glam::DQuat::from_rotation_x(tilt);
         (target.position, target.momentum) = (turn * target.position, turn * target.momentum);
         let (mut held, mut spent) = (0.0, 0.0);
-        for _ in 0..(200.0 / STEP) as usize {
+        let mut way = Way::default();
+        for time in (0..(200.0 / STEP) as usize).map(|k| k as f64 * STEP) {
             let known = Known { point: Point::from(&target), age: 0.0, rests: false };
             let point = Point::from(&own);
             let guide = guidance(&point, &known.point, engine().max_thrust, REACH);
@@ -182,7 +183,7 @@ fn who_follows_mark_and_sign_holds_the_target() {
             if held > 2.0 {
                 break;
             }
-            let advice = advised(&point, &known, engine().max_thrust, REACH);
+            let advice = way.follow(&point, &known, time, engine().max_thrust, REACH);
             let command = match advice {
                 _ if near || guide.brake == Brake::Now => matches.command(&own, &engine(), Some(known.point.velocity()), &settings).command,
                 Some(advice) => {

@@ -7,7 +7,7 @@ use crate::sim::History;
 use crate::sim::bolts::{LIFE, bolt_momentum};
 use crate::sim::guidance::approach;
 use crate::sim::known::Known;
-use crate::sim::pilot::rollout::{Point, advance};
+use crate::sim::pilot::rollout::{Point, coast};
 use crate::sim::sight::{direction, emission_time};
 use crate::spacetime::Observer;
 use crate::spacetime::light::Order;
@@ -62,7 +62,7 @@ fn places(start: Point, (span, pieces): (f64, usize)) -> Vec<DVec3> {
     let mut now = start;
     (0..pieces)
         .map(|_| {
-            now = advance(&now, step, 1.0, |_| DVec3::ZERO);
+            now = coast(&now, step);
             now.x
         })
         .collect()

@@ -14,13 +14,15 @@ use crate::scene::disk::Gas;
 use crate::scene::mission::GoalTask;
 use crate::sim::Outcome;
 use crate::sim::guidance::{Brake, Guidance, guidance};
-use crate::sim::intercept::{Advice, Intercept, advised};
+use crate::sim::intercept::{Advice, Way};
 use crate::sim::known::{known, resting};
 use crate::sim::pilot::aim::{AimMarks, shot_passes};
 use crate::sim::pilot::rollout::Point;
 use crate::sim::seeing::{Phenomenon, Pointer, Scenery, SeenBody, Track, pointers};
+use crate::sim::ship::Player;
 use crate::sim::sight::{Apparition, apparition, direction, emission_time, frequency_ratio, true_direction};
 use crate::sim::snapshot::FrameCamera;
+use crate::sim::target::Targets;
 use crate::spacetime::Observer;
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::Order;
@@ -106,7 +108,6 @@ pub(in crate::play) struct Slow {
     before: f64,
     /// The gate and the reach that it was found for.
     about: (Option<usize>, Option<f64>),
-    advice: Option<Intercept>,
     shot_passes: Option<f64>,
 }
 
@@ -157,6 +158,7 @@ fn camera_is_own(player: &PlayerState, outcome: Option<(Outcome, f64)>) -> bool 
 pub(in crate::play) fn read_panel(
     now: Now,
     (shot, menu): (Res<CurrentShot>, Res<Menu>),
+    (targets, mut ways): (Targets, Query<(Entity, &mut Way), With<Player>>),
     windows: Query<&Window, With<PrimaryWindow>>,
     player: Res<PlayerState>,
     mut panel: ResMut<Panel>,
@@ -210,12 +212,10 @@ pub(in crate::play) fn read_panel(
         None => to_camera * direction,
     };
     let reach = now.reach();
+    let advice = known
+        .zip(ways.single_mut().ok())
+        .and_then(|(known, (ship, mut way))| targets.advice((ship, &mut way), &state, &known, time, engine.max_thrust));
     if slow.is_due(time, real.elapsed_secs_f64(), (gate.map(|gate| gate.number), reach)) {
-        let meets = known.filter(|_| gate.is_none() && now.mission.as_ref().is_none_or(|mission| !mission.0.inside));
-        slow.advice = meets
-            .zip(reach)
-            .and_then(|(known, reach)| advised(&Point::from(&state), &known, engine.max_thrust, reach))
-            .and_then(Advice::thrust);
         slow.shot_passes = gun.zip(known).map(|(_, known)| shot_passes(&state, &known.point));
     }
     let guidance = known.map(|known| guidance(&Point::from(&state), &known.point, engine.max_thrust, reach.unwrap_or(0.0)));
@@ -245,7 +245,7 @@ pub(in crate::play) fn read_panel(
         gate,
         lines,
         pass: place.filter(|_| is_own).or(known).and_then(|known| ahead::pass(&camera, &state, &known)),
-        thrust: slow.advice.filter(|_| is_own).map(|advice| (ahead(advice.push.normalize()), advice.push.length())),
+        thrust: advice.and_then(Advice::thrust).map(|advice| (ahead(advice.push.normalize()), advice.push.length())),
         moving: guidance.filter(|guide| guide.velocity.length() > STILL).map(|guide| ahead(guide.velocity.normalize())),
         fallen: known.filter(|known| known.age > 0.0).and_then(|known| true_direction(&camera, known.point.x)),
         guidance,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::rollout::{PlannedBurn, Point, Span, advance, track};
+use super::rollout::{PlannedBurn, Point, Span, coast, track};
 use crate::sim::bolts::{HIT_RADIUS, LIFE, bolt_momentum, fired_by, nearest};
 use crate::spacetime::matter::ShipState;
 
@@ -110,7 +110,7 @@ impl Mark<'_> {
         let short = self.own.position.cross(self.way[0].x);
         for (index, pair) in self.way.windows(2).enumerate() {
             let before = bolt.x;
-            bolt = advance(&bolt, STEP, 1.0, |_| DVec3::ZERO);
+            bolt = coast(&bolt, STEP);
             let (from, to) = (pair[0].x - before, pair[1].x - bolt.x);
             let distance = nearest(from, to);
             if distance < least {
@@ -142,8 +142,8 @@ pub fn shot_passes(own: &ShipState, target: &Point) -> f64 {
     let mut passes = f64::INFINITY;
     for _ in 0..(LIFE / STEP) as usize {
         let before = bolt.x - other.x;
-        bolt = advance(&bolt, STEP, 1.0, |_| DVec3::ZERO);
-        other = advance(&other, STEP, 1.0, |_| DVec3::ZERO);
+        bolt = coast(&bolt, STEP);
+        other = coast(&other, STEP);
         passes = passes.min(nearest(before, bolt.x - other.x));
     }
     passes

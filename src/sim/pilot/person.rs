@@ -6,7 +6,7 @@ use glam::DVec3;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
 use super::aim;
-use super::rollout::{PlannedBurn, Point, advance};
+use super::rollout::{PlannedBurn, Point, coast};
 use super::steer::turn_nose;
 use crate::scene::pilot_kind::PilotKind;
 use crate::sim::ChaseRules;
@@ -14,7 +14,7 @@ use crate::sim::assist::{AssistMode, Stick};
 use crate::sim::bolts::{Gun, Trigger, nearest};
 use crate::sim::clock::Clock;
 use crate::sim::guidance::{Brake, approach, guidance};
-use crate::sim::intercept::{Advice, Intercept, MEETS, NEAR, advised};
+use crate::sim::intercept::{Advice, Intercept, MEETS, NEAR, Way};
 use crate::sim::known::Known;
 use crate::sim::player_commands::{ManualControl, PlayerCommands};
 use crate::sim::ship::{Controls, Ended, Engine, Fleet, Manual, Pilot, PilotOrder, ShipMotion};
@@ -127,8 +127,8 @@ struct View<'a> {
     image: Option<DVec3>,
     /// Within this of the target it is caught, in r_s.
     reach: f64,
-    /// Where to thrust is marked.
-    advised: bool,
+    /// What the mark "thrust" says.
+    advice: Option<Advice>,
     bolts: u32,
 }
 
@@ -144,13 +144,17 @@ impl View<'_> {
 fn falls(own: &Point) -> bool {
     let mut point = *own;
     (0..COURSE).any(|_| {
-        point = advance(&point, 1.0, 1.0, |_| DVec3::ZERO);
+        point = coast(&point, 1.0);
         point.x.length_squared() < LOW * LOW
     })
 }
 
-type PersonShip<'a> =
-    ((&'a Pilot, &'a mut Person), (&'a mut Controls, &'a mut Engine), &'a ShipMotion, (Option<&'a Gun>, Option<&'a mut Trigger>));
+type PersonShip<'a> = (
+    (&'a Pilot, &'a mut Person, &'a mut Way),
+    (&'a mut Controls, &'a mut Engine),
+    &'a ShipMotion,
+    (Option<&'a Gun>, Option<&'a mut Trigger>),
+);
 
 /// Sets the controls of every ship flown so.
 pub fn fly_as_person(
@@ -161,7 +165,9 @@ pub fn fly_as_person(
 ) {
     let Some(control) = control else { return };
     for &entity in &fleet.0 {
-        let Ok(((pilot, mut person), (mut controls, mut engine), motion, (gun, trigger))) = ships.get_mut(entity) else { continue };
+        let Ok(((pilot, mut person, mut way), (mut controls, mut engine), motion, (gun, trigger))) = ships.get_mut(entity) else {
+            continue;
+        };
         engine.max_rate = control.turn_rate / commands.pace;
         let state = &motion.0;
         // A solution of the light's way where nobody tells: only when it is asked for.
@@ -172,8 +178,10 @@ pub fn fly_as_person(
             let bolts = gun.map_or(0, |gun| gun.left);
             let image = targets.image(entity, state, clock.time);
             let reach = targets.reach(entity).unwrap_or(rules.0.capture_radius);
-            let view =
-                View { state, order: pilot.order, engine: &engine, target: known(), image, reach, advised: targets.advises(entity), bolts };
+            let (order, target) = (pilot.order, known());
+            let meets = target.filter(|_| matches!(order, PilotOrder::Catch(_)) && person.skill.heeds);
+            let advice = meets.and_then(|known| targets.advice((entity, &mut way), state, &known, clock.time, engine.max_thrust));
+            let view = View { state, order, engine: &engine, target, image, reach, advice, bolts };
             let action = person.decide(&view, clock.time);
             person.decided = Some((clock.time + slowed * REACTION, action));
             person.next = clock.time + slowed * person.pause();
@@ -232,7 +240,7 @@ impl Person {
         if guide.brake == Brake::Now || guide.apart.length() < view.reach {
             return Action { nose, assist, matching: true, ..Action::default() };
         }
-        match advised(&own, target, view.engine.max_thrust, view.reach).filter(|_| view.advised) {
+        match view.advice {
             Some(Advice::Coast) => return Action { nose, ..Action::default() },
             Some(Advice::Thrust(Intercept { push, .. })) => {
                 // As much as is missing until the next decision.

@@ -127,6 +127,11 @@ pub fn advance(now: &Point, h: f64, floor: f64, acceleration: impl Fn(&Point) ->
     point
 }
 
+/// A step of free fall.
+pub fn coast(now: &Point, h: f64) -> Point {
+    advance(now, h, 1.0, |_| DVec3::ZERO)
+}
+
 /// The flight for `span` (r_s/c) under `burn`, in steps of at most half of one.
 pub fn flown(point: &Point, span: f64, burn: &PlannedBurn) -> Point {
     let steps = (span * 2.0).ceil().max(1.0);
