@@ -211,12 +211,11 @@ fn read_commands(
     let (mut stick, mut assist) = (input.stick(), player.assisted(&session.config));
     for (ship, motion, engine, turning, mut way) in &mut ships {
         let mark = player.facing.then(|| targets.mark((ship, &mut way), &motion.0, clock.time, engine.max_thrust)).flatten();
-        if let Some((mark, is_on_its_way)) = mark {
-            // From afar a fall leads to the target, and the assist would fly another way; near it drift against it is to fade.
+        if let Some((mark, serves)) = mark {
             assist = match assist {
                 AssistMode::Off => AssistMode::Off,
-                _ if is_on_its_way && !player.matching() => AssistMode::Off,
-                _ => AssistMode::Target,
+                _ if player.matching() => AssistMode::Target,
+                _ => serves,
             };
             // Whoever asks for the mark does not steer aside.
             turn.take();
@@ -371,8 +370,8 @@ pub(in crate::play) mod tests {
             let (ship, motion, engine) = ships.single().expect("one player");
             targets.mark((ship, &mut Way::default()), &motion.0, clock.time, engine.max_thrust)
         };
-        let (mark, is_on_its_way) = app.world_mut().run_system_cached(on_mark).expect("all resources are there").expect("a target");
-        assert!(is_on_its_way && mark.angle_between(glam::DVec3::NEG_Z) < 0.15, "{mark}");
+        let (mark, serves) = app.world_mut().run_system_cached(on_mark).expect("all resources are there").expect("a target");
+        assert!(serves == AssistMode::Off && mark.angle_between(glam::DVec3::NEG_Z) < 0.15, "{mark}");
         press_key(&mut app, KeyCode::KeyF, ButtonState::Released);
         (0..2).for_each(|_| app.update());
         assert_eq!(app.world().resource::<PlayerCommands>().assist, AssistMode::Orbit);

@@ -8,6 +8,7 @@
 use bevy::ecs::component::Component;
 use glam::{DMat3, DVec3};
 
+use super::assist::AssistMode;
 use super::guidance::approach;
 use super::known::Known;
 use super::pilot::rollout::{Point, coast};
@@ -37,15 +38,13 @@ const APART: usize = 3;
 /// Each is corrected so often, until it ends so near, in r_s.
 const CORRECTED: (usize, f64) = (4, 0.15);
 
-/// A change of velocity after which a free fall leads to a target.
+/// A change of velocity after which a free fall leads to a target, or up from the hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intercept {
     /// On rest-frame axes, in c.
     pub push: DVec3,
     /// T until the meeting, in r_s/c.
     pub ahead: f64,
-    /// Speed against the target there, in c.
-    pub arrival: f64,
 }
 
 /// Whoever passes within this share of the catch radius need not thrust.
@@ -63,14 +62,14 @@ pub enum Advice {
 /// Nearer than this, in r_s, one flies to the target itself: it has no time to be elsewhere, and its own thrust counts more than a fall.
 pub const NEAR: f64 = 4.0;
 
-/// What leads `own`, with an engine of `thrust` (c²/r_s), within `reach` (r_s) of a ship that is to be flown with. None where no fall does,
-/// and near it. `kept`: see [`intercept`].
+/// What leads `own`, with an engine of `thrust` (c²/r_s), within `reach` (r_s) of a ship that is to be flown with; from deep near the hole
+/// first up. None where no fall does, and near it. `kept`: see [`intercept`].
 pub fn advised(own: &Point, known: &Known, thrust: f64, reach: f64, kept: Option<f64>) -> Option<Advice> {
     if own.x.distance(known.point.x) < NEAR {
         return None;
     }
     let meets = approach(own, known).is_some_and(|near| near.distance < MEETS * reach);
-    if meets { Some(Advice::Coast) } else { intercept(own, known, thrust, kept).map(Advice::Thrust) }
+    if meets { Some(Advice::Coast) } else { intercept(own, known, thrust, kept).or_else(|| climb(own, known)).map(Advice::Thrust) }
 }
 
 /// The way that a ship is on to its target. It is found anew now and then, and one stays on it until another is clearly better.
@@ -105,7 +104,17 @@ impl Way {
     }
 }
 
+/// With the nose nearer to a mark than this it is on it, in radians.
+pub const ON_MARK: f64 = 0.3;
+
 impl Advice {
+    /// The assist of who turns to it, from `radius` (r_s), with the mark at `ahead` on body axes. It rests, since it would fly another way; but
+    /// near the hole it holds the ship until the nose is there.
+    pub fn assist(self, radius: f64, ahead: DVec3) -> AssistMode {
+        let turns = self != Advice::Coast && ahead.angle_between(DVec3::NEG_Z) > ON_MARK;
+        if radius < DEEP && turns { AssistMode::Orbit } else { AssistMode::Off }
+    }
+
     /// The thrust that it asks for.
     pub fn thrust(self) -> Option<Intercept> {
         match self {
@@ -144,6 +153,31 @@ pub fn intercept(own: &Point, known: &Known, thrust: f64, kept: Option<f64>) -> 
     None
 }
 
+/// Who is nearer to the hole than this, in r_s, with no way to a target above, goes up first.
+const DEEP: f64 = 4.0;
+/// So far, in r_s: from there a way is found.
+const UP: f64 = 6.0;
+/// Pushes of so many sizes are tried, and from the least on so many more: who thrusts too little there falls.
+const SIZES: (u32, u32) = (14, 2);
+
+/// A push along the own motion after which a fall from near the hole goes up.
+fn climb(own: &Point, known: &Known) -> Option<Intercept> {
+    let radius = own.x.length();
+    if radius > DEEP || known.point.x.length() < radius {
+        return None;
+    }
+    let along = own.velocity().reject_from(own.x).try_normalize()?;
+    (1..=SIZES.0).find_map(|size| {
+        let push = |size| along * (LARGEST * f64::from(size) / f64::from(SIZES.0));
+        let mut point = after(own, push(size));
+        let up = (1..=STEPS).find(|_| {
+            point = coast(&point, STEP);
+            point.x.length_squared() > UP * UP
+        })?;
+        Some(Intercept { push: push(size + SIZES.1), ahead: up as f64 * STEP })
+    })
+}
+
 /// All meetings within reach of the engine, one for each time.
 fn meetings(own: &Point, known: &Known, thrust: f64) -> Vec<Meeting> {
     let (mut own, mut pushed, mut target) = (*own, DVec3::AXES.map(|axis| after(own, axis * PUSH)), known.point);
@@ -163,7 +197,7 @@ fn meetings(own: &Point, known: &Known, thrust: f64) -> Vec<Meeting> {
         }
         let arrival = (own.velocity() + change(&Point::velocity) * push - target.velocity()).length();
         let cost = push.length() + arrival + HASTE * ahead;
-        meetings.push(Meeting { cost, steps, found: Intercept { push, ahead, arrival }, place: target.x });
+        meetings.push(Meeting { cost, steps, found: Intercept { push, ahead }, place: target.x });
     }
     meetings
 }

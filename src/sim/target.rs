@@ -4,6 +4,7 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use glam::DVec3;
 
+use super::assist::AssistMode;
 use super::goals::{ActiveMission, Progress, catch_radius};
 use super::history::History;
 use super::intercept::{Advice, Way};
@@ -82,12 +83,13 @@ impl Targets<'_, '_> {
     }
 
     /// Where the nose of `own` is of most use, a unit vector on body axes: where thrust leads to what it is after, else to where that is now
-    /// as far as is known. And whether a fall leads there.
-    pub fn mark(&self, (own, way): (Entity, &mut Way), state: &ShipState, time: f64, thrust: f64) -> Option<(DVec3, bool)> {
+    /// as far as is known. And the assist that serves on that way.
+    pub fn mark(&self, (own, way): (Entity, &mut Way), state: &ShipState, time: f64, thrust: f64) -> Option<(DVec3, AssistMode)> {
         let known = self.known(own, state, time)?;
         let advice = self.advice((own, way), state, &known, time, thrust);
         let towards = advice.and_then(Advice::thrust).map_or(known.point.x - state.position, |intercept| intercept.push);
-        Some((state.attitude.conjugate() * towards.try_normalize()?, advice.is_some()))
+        let mark = state.attitude.conjugate() * towards.try_normalize()?;
+        Some((mark, advice.map_or(AssistMode::Target, |advice| advice.assist(state.position.length(), mark))))
     }
 
     /// Whether the mission tells where ships are now.

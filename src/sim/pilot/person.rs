@@ -14,7 +14,7 @@ use crate::sim::assist::{AssistMode, Stick};
 use crate::sim::bolts::{Gun, Trigger, nearest};
 use crate::sim::clock::Clock;
 use crate::sim::guidance::{Brake, approach, guidance};
-use crate::sim::intercept::{Advice, Intercept, MEETS, NEAR, Way};
+use crate::sim::intercept::{Advice, Intercept, MEETS, NEAR, ON_MARK, Way};
 use crate::sim::known::Known;
 use crate::sim::player_commands::{ManualControl, PlayerCommands};
 use crate::sim::ship::{Controls, Ended, Engine, Fleet, Manual, Pilot, PilotOrder, ShipMotion};
@@ -33,8 +33,6 @@ const KEPT_BOLTS: u32 = 6;
 const CRUISE: f64 = 0.6;
 /// The hand is off by this share of what it does.
 const NOISE: f64 = 0.1;
-/// Nearer than this the nose is on its mark, in radians; before, a person only turns.
-const ON_MARK: f64 = 0.3;
 
 /// Who passes farther off than this, in r_s, flies to the target itself.
 const CORRECTED: f64 = 3.0;
@@ -133,7 +131,7 @@ struct View<'a> {
 }
 
 impl View<'_> {
-    /// Forward, if the nose points that way.
+    /// Forward, if the nose points that way; before, a person only turns.
     fn ahead(&self, way: DVec3) -> DVec3 {
         let on_mark = (self.state.attitude * DVec3::NEG_Z).angle_between(way) < ON_MARK;
         if on_mark { DVec3::NEG_Z } else { DVec3::ZERO }
@@ -242,10 +240,16 @@ impl Person {
         }
         match view.advice {
             Some(Advice::Coast) => return Action { nose, ..Action::default() },
-            Some(Advice::Thrust(Intercept { push, .. })) => {
+            Some(advice @ Advice::Thrust(Intercept { push, .. })) => {
                 // As much as is missing until the next decision.
                 let strength = (push.length() / (view.engine.max_thrust * REACTION)).clamp(GENTLE, 1.0);
-                return Action { nose: Some(push), thrust: view.ahead(push) * strength, ..Action::default() };
+                let assist = advice.assist(own.x.length(), view.state.attitude.conjugate() * push);
+                // Near the hole the mark goes round with the ship, and the hand with the mark.
+                let way = push.normalize();
+                let sweep =
+                    if assist == AssistMode::Orbit { own.x.cross(own.velocity()).cross(way) / own.x.length_squared() } else { DVec3::ZERO };
+                let (nose, thrust) = (Some(way + sweep * REACTION), view.ahead(way) * strength);
+                return Action { nose, sweep, thrust, assist, ..Action::default() };
             }
             None => (),
         }
