@@ -253,3 +253,21 @@ fn no_files_import_each_other_in_a_circle() {
         assert!(circle.is_empty(), "files import each other in a circle:\n{}", circle.join("\n"));
     }
 }
+
+/// What moves a ship rounds alike on every machine: sines and the like come from `libm`, not from the system.
+#[test]
+fn the_simulation_has_one_mathematical_library() {
+    const SYSTEMS: [&str; 27] = [
+        "sin", "cos", "tan", "sin_cos", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp", "exp2",
+        "exp_m1", "ln", "ln_1p", "log", "log2", "log10", "powf", "powi", "cbrt", "hypot", "mul_add",
+    ];
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let moves = |module: &Module| matches!(module.first().map(String::as_str), Some("spacetime" | "sim")) || *module == ["scene", "swarm"];
+    for (module, path) in modules(&root).into_iter().filter(|(module, _)| moves(module)) {
+        let text = code(&std::fs::read_to_string(path).unwrap());
+        for name in SYSTEMS {
+            let called = [format!(".{name}("), format!("f64::{name}")];
+            assert!(!called.iter().any(|call| text.contains(call.as_str())), "{}: {name}", module.join("::"));
+        }
+    }
+}

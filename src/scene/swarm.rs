@@ -76,7 +76,7 @@ impl SwarmEntry {
             None => [0.0, PI],
         };
         let ship = |number: u32| -> Result<ShipSpec, OrbitError> {
-            let [r, tilt, node, phase] = [1, 2, 3, 4].map(|power| (f64::from(number) * PHI.powi(-power)).fract());
+            let [r, tilt, node, phase] = [1.0, 2.0, 3.0, 4.0].map(|power| (f64::from(number) * libm::pow(PHI, -power)).fract());
             let between = |[least, most]: [f64; 2], share: f64| least + share * (most - least);
             let circle = Elements::circle(between(radius, r), phase * TAU);
             let mut state = Elements { inclination: between(inclination, tilt), node: node * TAU, ..circle }.state()?;

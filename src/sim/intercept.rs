@@ -204,7 +204,7 @@ fn meetings(own: &Point, known: &Known, thrust: f64) -> Vec<Meeting> {
 
 /// The meeting as it is really flown, by Newton's method; None where it is not reached, or the way to it comes near the hole.
 fn corrected(own: &Point, meeting: &Meeting) -> Option<Intercept> {
-    let lowest = LOWEST.min(meeting.place.length()).powi(2);
+    let lowest = LOWEST.min(meeting.place.length());
     let mut push = meeting.found.push;
     for _ in 0..=CORRECTED.0 {
         let mut point = after(own, push);
@@ -213,7 +213,7 @@ fn corrected(own: &Point, meeting: &Meeting) -> Option<Intercept> {
         for _ in 0..meeting.steps {
             point = coast(&point, STEP);
             pushed = pushed.map(|point| coast(&point, STEP));
-            is_low |= point.x.length_squared() < lowest;
+            is_low |= point.x.length_squared() < lowest * lowest;
         }
         let miss = meeting.place - point.x;
         if miss.length() < CORRECTED.1 {

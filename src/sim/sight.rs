@@ -36,12 +36,12 @@ pub fn direction(camera: &Observer, position: DVec3, order: Order, age: f64) -> 
     let (l, r) = (camera.radius(), position.length());
     let outward = camera.position / l;
     let across = position - outward * position.dot(outward);
-    let phi = across.length().atan2(position.dot(outward)).max(1e-12);
+    let phi = libm::atan2(across.length(), position.dot(outward)).max(1e-12);
     let ray = light::connect(1.0 / r, order.swept(phi), 1.0 / l, branch_of(camera, position, age))?;
     let psi = light::rain_angle(ray.slope, ray.energy, 1.0 / l);
     let side = across.try_normalize().unwrap_or_else(|| outward.any_orthonormal_vector());
     let side = if order.flips() { -side } else { side };
-    Some(camera.seen_direction(outward * psi.cos() + side * psi.sin()))
+    Some(camera.seen_direction(outward * libm::cos(psi) + side * libm::sin(psi)))
 }
 
 /// g = ν_observed/ν_emitted of light that left a ship in the state `emitted` and reaches `camera` after `age` r_s/c, in the image of this
@@ -50,7 +50,7 @@ pub fn frequency_ratio(camera: &Observer, emitted: &Sample, order: Order, age: f
     let (l, r) = (camera.radius(), emitted.position.length());
     let (n, m) = (camera.position / l, emitted.position / r);
     let across = m - n * m.dot(n);
-    let phi = across.length().atan2(m.dot(n)).max(1e-12);
+    let phi = libm::atan2(across.length(), m.dot(n)).max(1e-12);
     let ray = light::connect(1.0 / r, order.swept(phi), 1.0 / l, branch_of(camera, emitted.position, age))?;
     let side = across.try_normalize().unwrap_or_else(|| n.any_orthonormal_vector());
     let turn = if order.flips() { -1.0 } else { 1.0 };
@@ -76,7 +76,7 @@ pub fn light_path(camera: &Observer, position: DVec3, order: Order, branch: Bran
     let (l, r) = (camera.radius(), position.length());
     let n = camera.position / l;
     let across = position - n * position.dot(n);
-    let phi = across.length().atan2(position.dot(n)).max(1e-12);
+    let phi = libm::atan2(across.length(), position.dot(n)).max(1e-12);
     let ray = light::connect(1.0 / r, order.swept(phi), 1.0 / l, branch)?;
     // dΔ/dx = −k/E at the point, k the photon's spatial momentum there.
     let side = across.try_normalize().unwrap_or_else(|| n.any_orthonormal_vector());

@@ -59,7 +59,7 @@ impl Observer {
             return None;
         }
         let [width, height] = size.map(f64::from);
-        let focal = 0.5 * width / (0.5 * self.field_of_view).tan();
+        let focal = 0.5 * width / libm::tan(0.5 * self.field_of_view);
         Some([0.5 * width - focal * seen.x / seen.z, 0.5 * height + focal * seen.y / seen.z])
     }
 }

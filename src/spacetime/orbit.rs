@@ -70,14 +70,14 @@ impl Elements {
     pub fn state(&self) -> Result<ShipState, OrbitError> {
         let (energy, momentum) = self.constants()?;
         let (p, e) = (self.semi_latus_rectum, self.eccentricity);
-        let r = p / (1.0 + e * self.anomaly.cos());
+        let r = p / (1.0 + e * libm::cos(self.anomaly));
         // (dr/dτ)² = E² − (1 − 1/r)(1 + L²/r²) without its cancellation at the apsides: in u = 1/r it is
         // L²(du/dφ)² = L²(u − u₁)(u₂ − u)(u₃ − u) with u₁,₂ = (1 ∓ e)/p, u₃ = 1 − 2/p, and the first two factors are (e sin χ/p)².
         let u3 = 1.0 - 2.0 / p;
-        let radial = momentum * (e / p) * self.anomaly.sin() * (u3 - 1.0 / r).max(0.0).sqrt();
+        let radial = momentum * (e / p) * libm::sin(self.anomaly) * (u3 - 1.0 / r).max(0.0).sqrt();
         let plane = DQuat::from_rotation_z(self.node) * DQuat::from_rotation_x(self.inclination);
-        let outward = plane * DVec3::new(self.phase.cos(), self.phase.sin(), 0.0);
-        let along = plane * DVec3::new(-self.phase.sin(), self.phase.cos(), 0.0);
+        let outward = plane * DVec3::new(libm::cos(self.phase), libm::sin(self.phase), 0.0);
+        let along = plane * DVec3::new(-libm::sin(self.phase), libm::cos(self.phase), 0.0);
         Ok(ShipState::new(outward * r, momentum_from_constants(energy, momentum, r, radial, outward, along)))
     }
 }

@@ -76,7 +76,7 @@ impl Mark<'_> {
         let straight = self.way[0].x - self.own.position;
         let side = straight.reject_from(inward).try_normalize().unwrap_or_else(|| inward.any_orthonormal_vector());
         let angle = std::f64::consts::TAU * k as f64 / FAN as f64;
-        let direction = inward * angle.cos() + side * angle.sin();
+        let direction = inward * libm::cos(angle) + side * libm::sin(angle);
         (direction, self.shoot(direction).miss.length())
     }
 

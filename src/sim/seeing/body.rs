@@ -89,8 +89,8 @@ impl SeenImage {
         let side = if across.length() > 1e-9 * r { across.normalize() } else { eye.side(0.0) };
         let side = if order.flips() { -side } else { side };
         let swept = order.swept(phi.max(1e-12));
-        let half_turn = if across.length() <= body.radius { PI } else { (body.radius / across.length()).asin() };
-        let opening = if r <= body.radius { FRAC_PI_2 } else { (body.radius / r).asin() };
+        let half_turn = if across.length() <= body.radius { PI } else { libm::asin(body.radius / across.length()) };
+        let opening = if r <= body.radius { FRAC_PI_2 } else { libm::asin(body.radius / r) };
 
         let middle = eye.psi(r, swept, branch)?;
         let ends = [(r, swept - opening), (r, swept + opening), (r - body.radius, swept), (r + body.radius, swept)];
@@ -112,6 +112,6 @@ impl SeenImage {
     /// Whether this image may be what is seen there.
     pub fn covers(&self, look: &Look) -> bool {
         let half_turn = ROOM * self.half_turn;
-        (self.psi[0]..=self.psi[1]).contains(&look.psi) && (half_turn >= PI || look.side.dot(self.side) >= half_turn.cos())
+        (self.psi[0]..=self.psi[1]).contains(&look.psi) && (half_turn >= PI || look.side.dot(self.side) >= libm::cos(half_turn))
     }
 }

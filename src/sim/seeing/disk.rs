@@ -26,11 +26,11 @@ pub fn disk(field: &Field) -> Vec<Pointer> {
     let [start, end] = gas.extent();
     // Where the disk is thick: neither thin falling gas nor its outer edge.
     let inner = start.max(LAST_ORBIT) * 1.05;
-    let radii: Vec<f64> = (0..RADII).map(|k| inner * (0.8 * end / inner).powf(k as f64 / (RADII - 1) as f64)).collect();
+    let radii: Vec<f64> = (0..RADII).map(|k| inner * libm::pow(0.8 * end / inner, k as f64 / (RADII - 1) as f64)).collect();
     let seen = [1, 2].map(|order| looks(field, order, &radii));
     let has_faces = field.eye.outward.z.abs() > LOWEST;
     let middle = radii[RADII / 2];
-    let off_middle = |spot: &Spot| 0.3 * (spot.gas.position.length() / middle).ln().abs();
+    let off_middle = |spot: &Spot| 0.3 * libm::log(spot.gas.position.length() / middle).abs();
     let all = || seen.iter().flatten();
     let bluest = best(all().filter(|spot| spot.gas.g > 1.0 + NOTICED), |spot| spot.gas.g + spot.inwards());
     let reddest = best(all().filter(|spot| spot.gas.g < 1.0 - NOTICED), |spot| spot.inwards() - spot.gas.g);

@@ -91,7 +91,7 @@ impl<'a> Eye<'a> {
 
     /// The direction, in camera axes, of the light that comes at ψ = `psi` (rain frame, rad) on the side `side`.
     pub fn seen(&self, psi: f64, side: DVec3) -> DVec3 {
-        self.camera.seen_direction(self.outward * psi.cos() + side * psi.sin())
+        self.camera.seen_direction(self.outward * libm::cos(psi) + side * libm::sin(psi))
     }
 
     /// As [`Eye::seen`] for the ray that meets what is at radius `r` (r_s; infinite for the sky) after the angle `swept`; None where there
@@ -109,7 +109,7 @@ impl<'a> Eye<'a> {
     /// Φ in (0, π) where rays on the side `side` cross the disk's plane first.
     pub fn first_crossing(&self, side: DVec3) -> f64 {
         let upward = self.height.signum();
-        (self.height * upward).atan2(-side.z * upward)
+        libm::atan2(self.height * upward, -side.z * upward)
     }
 
     /// The unit vector across `outward` at this angle from the disk's normal on the camera's side, in rad.
@@ -117,7 +117,7 @@ impl<'a> Eye<'a> {
         let normal = DVec3::Z * self.height.signum();
         let up =
             (normal - self.outward * self.outward.dot(normal)).try_normalize().unwrap_or_else(|| self.outward.any_orthonormal_vector());
-        up * angle.cos() + self.outward.cross(up) * angle.sin()
+        up * libm::cos(angle) + self.outward.cross(up) * libm::sin(angle)
     }
 
     /// What is seen in the direction `seen` (unit vector in camera axes).
@@ -130,7 +130,7 @@ impl<'a> Eye<'a> {
         let sin = across.length();
         // Rounding alone has no side, and the radial directions themselves have rays of infinite slope.
         let side = if sin > LEAST_SINE { across / sin } else { self.side(0.0) };
-        let psi = sin.max(LEAST_SINE).atan2(cos);
+        let psi = libm::atan2(sin.max(LEAST_SINE), cos);
         let mut found = Look { seen, psi, side, captured: psi >= self.edge, crossings: [None; 3] };
         if let Some(gas) = self.gas {
             self.cross(gas, &mut found, blue);
@@ -147,7 +147,7 @@ impl<'a> Eye<'a> {
         }
         let [start, end] = gas.extent();
         let at_camera = light::rain_momentum(ray.slope, ray.energy, self.u);
-        let frequency = at_camera[0].hypot(at_camera[1]);
+        let frequency = libm::hypot(at_camera[0], at_camera[1]);
         let first = self.first_crossing(look.side);
         for order in 1..=3u8 {
             let swept = first + PI * f64::from(order - 1);
@@ -160,7 +160,7 @@ impl<'a> Eye<'a> {
             if !(r > start && r < end) {
                 continue;
             }
-            let (sin, cos) = swept.sin_cos();
+            let (sin, cos) = libm::sincos(swept);
             let (here, onward) = (self.outward * cos + look.side * sin, look.side * cos - self.outward * sin);
             let position = DVec3::new(here.x, here.y, 0.0) * r;
             let [radial, tangential] = light::rain_momentum(slope, ray.energy, u);
@@ -170,8 +170,8 @@ impl<'a> Eye<'a> {
             // Straight lines do: how far it is counts only from within the gas.
             let depth =
                 gas.radial.depth(r) * slant(Gas::cosine(momentum, light), position.distance(self.camera.position), gas.half_height(r));
-            let spread = (DEVIATIONS * gas.contrast).exp();
-            let opacity = [depth / spread, depth * spread].map(|depth| -(-depth).exp_m1());
+            let spread = libm::exp(DEVIATIONS * gas.contrast);
+            let opacity = [depth / spread, depth * spread].map(|depth| -libm::expm1(-depth));
             if g.is_finite() && opacity[0].is_finite() {
                 look.crossings[usize::from(order) - 1] = Some(GasCrossing { order, swept, position, g, opacity });
             }

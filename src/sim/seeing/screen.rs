@@ -22,7 +22,7 @@ pub struct CameraScreen {
 impl CameraScreen {
     /// Of a horizontal field of view in rad; `aspect` is width over height.
     pub fn new(field_of_view: f64, aspect: f64) -> CameraScreen {
-        let across = WITHIN * (0.5 * field_of_view.clamp(FIELDS[0], FIELDS[1])).tan();
+        let across = WITHIN * libm::tan(0.5 * field_of_view.clamp(FIELDS[0], FIELDS[1]));
         let aspect = if aspect.is_finite() { aspect.clamp(0.05, 20.0) } else { 1.0 };
         CameraScreen { half: [across, across / aspect], rows: (COLUMNS as f64 / aspect).round().clamp(ROWS[0], ROWS[1]) as usize }
     }

@@ -37,7 +37,7 @@ fn ring(field: &Field, image: &SeenImage, others: &[SeenImage]) -> Option<Pointe
     [0.5, -0.5].into_iter().find_map(|part| {
         let turn = part * image.half_turn;
         // Seen from the line the body is a disk; this is the middle of its chord in that direction.
-        let swept = PI - off * turn.cos();
+        let swept = PI - off * libm::cos(turn);
         let side = DQuat::from_axis_angle(field.eye.outward, turn) * image.side;
         let direction = field.eye.seen_ray(image.r, swept, side)?;
         let pointer = Pointer { sight: Phenomenon::EinsteinRing, direction, number: Some(direction.angle_between(middle)) };

@@ -22,13 +22,13 @@ fn look_radial(w: f64, e: f64, u: f64) -> f64 {
 /// ψ in the rain frame, in [0, π] from the outward radial direction, of the light that reaches u = 1/r with slope `slope` and
 /// energy `energy` (both 1/r_s).
 pub fn rain_angle(slope: f64, energy: f64, u: f64) -> f64 {
-    u.atan2(look_radial(slope, energy, u))
+    libm::atan2(u, look_radial(slope, energy, u))
 }
 
 /// ψ in the frame of a static observer, in [0, π] from the outward radial direction; None at and under the horizon, where nothing
 /// is static. The energy plays no part: e² = w² + u² − u³.
 pub fn static_angle(slope: f64, _energy: f64, u: f64) -> Option<f64> {
-    (u < 1.0).then(|| (u * (1.0 - u).sqrt()).atan2(-slope))
+    (u < 1.0).then(|| libm::atan2(u * (1.0 - u).sqrt(), -slope))
 }
 
 /// A ray as it leaves the camera, backwards.
@@ -44,7 +44,7 @@ pub struct Launch {
 /// bound towards the radial directions.
 pub fn launch(psi_rain: f64, u: f64) -> Launch {
     let beta = u.sqrt();
-    let (sin, cos) = psi_rain.sin_cos();
+    let (sin, cos) = libm::sincos(psi_rain);
     Launch { slope: -u * (beta + cos) / sin, energy: u * (1.0 + beta * cos) / sin }
 }
 

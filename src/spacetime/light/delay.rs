@@ -50,19 +50,19 @@ pub fn delay(ray: &Ray, u_point: f64, swept: f64, u_camera: f64) -> f64 {
     let path = QuadratureRay { slope, u_point, emission_slope, d, swept, u_camera, energy: e };
 
     let time = if trapped || near {
-        let closed = |w: f64, u: f64| 2.0 * (u / ahead(e, w, u)).ln();
+        let closed = |w: f64, u: f64| 2.0 * libm::log(u / ahead(e, w, u));
         closed(emission_slope, u_point) - closed(slope, u_camera) + path.integral(|u, _| e * (1.0 + 3.0 * u) / (u * u))
     } else if scattered {
-        let closed = |w: f64, u: f64| (ahead(e, w, u) / u).ln() - w / (u * e);
+        let closed = |w: f64, u: f64| libm::log(ahead(e, w, u) / u) - w / (u * e);
         closed(emission_slope, u_point) - closed(slope, u_camera) + path.integral(|u, w| u / (2.0 * e) + 1.5 * (e + w) / (1.0 - u))
     } else {
         // No turning point. Light that left the past horizon has e and w of one sign.
         let outgoing = e * slope > 0.0;
         let closed = |w: f64, u: f64| {
-            let rest = ((e.abs() + w.abs()) / u).ln();
+            let rest = libm::log((e.abs() + w.abs()) / u);
             (if outgoing { -rest } else { rest }) - w / (u * e)
         };
-        let horizon = if outgoing { -2.0 * ((1.0 - u_point) / (1.0 - u_camera)).ln() } else { 0.0 };
+        let horizon = if outgoing { -2.0 * libm::log((1.0 - u_point) / (1.0 - u_camera)) } else { 0.0 };
         closed(emission_slope, u_point) - closed(slope, u_camera)
             + horizon
             + path.integral(|u, w| u / (2.0 * e) + (1.5 * u * u / (e.abs() + w.abs())).copysign(e))
@@ -75,7 +75,7 @@ pub fn delay(ray: &Ray, u_point: f64, swept: f64, u_camera: f64) -> f64 {
 pub fn zero_energy_delay(u_point: f64, u_camera: f64) -> f64 {
     let part = |u: f64| {
         let t = 1.0 / u.sqrt();
-        2.0 * (t.atanh() - t)
+        2.0 * (libm::atanh(t) - t)
     };
     part(u_point) - part(u_camera)
 }
@@ -88,7 +88,7 @@ fn ahead(e: f64, w: f64, u: f64) -> f64 {
 /// T − t̂.
 fn to_rain_time(u: f64) -> f64 {
     let beta = u.sqrt();
-    2.0 / beta - 2.0 * beta.ln_1p()
+    2.0 / beta - 2.0 * libm::log1p(beta)
 }
 
 /// A ray as the quadrature sees it.
@@ -105,7 +105,7 @@ struct QuadratureRay {
 impl QuadratureRay {
     /// ∫ f(u, w) dΦ along the ray.
     fn integral(&self, f: impl Fn(f64, f64) -> f64) -> f64 {
-        let narrow = LONGEST_PANEL / self.energy.abs().max(1.0).cbrt();
+        let narrow = LONGEST_PANEL / libm::cbrt(self.energy.abs().max(1.0));
         if self.u_camera < 1.0 { self.integral_of_halves(narrow, f) } else { self.integral_inwards(narrow, f) }
     }
 

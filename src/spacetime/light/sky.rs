@@ -67,7 +67,7 @@ fn excess(slope: f64, energy: f64, u: f64) -> f64 {
 /// s > 0 of the lowest root U = −s of U³ − U² + e²: s²(1 + s) = e².
 fn lowest_root(e: f64) -> f64 {
     // Newton from above on a convex function: never overshoots.
-    let mut s = e.min(e.cbrt() * e.cbrt());
+    let mut s = e.min(libm::cbrt(e) * libm::cbrt(e));
     for _ in 0..20 {
         let step = (s * s * (1.0 + s) - e * e) / (s * (2.0 + 3.0 * s));
         s -= step;

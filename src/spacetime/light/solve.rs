@@ -117,18 +117,18 @@ fn exists(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> bool {
         return true;
     }
     // Inside: the ray of zero energy, r = (1 − cos η)/2 with η growing like Φ, reaches farthest.
-    u_camera > u_point && swept < (1.0 - 2.0 / u_point).acos() - (1.0 - 2.0 / u_camera).acos()
+    u_camera > u_point && swept < libm::acos(1.0 - 2.0 / u_point) - libm::acos(1.0 - 2.0 / u_camera)
 }
 
 /// x of the straight line of flat space where it makes sense, else of the ray that winds around the photon sphere.
 fn first_guess(fan: Fan, u_point: f64, swept: f64) -> f64 {
-    let straight = fan.of_slope((u_point - fan.u() * swept.cos()) / swept.sin());
+    let straight = fan.of_slope((u_point - fan.u() * libm::cos(swept)) / libm::sin(swept));
     if swept < 2.5 && straight < fan.top() {
         return straight;
     }
     match fan {
         Fan::Outside { u } => (PHOTON_SPHERE - u) * (u + 1.0 / 3.0).sqrt(),
-        Fan::Inside { s, .. } => -CRITICAL_ENERGY_SQUARED / (s + s.hypot(CRITICAL_ENERGY_SQUARED.sqrt())),
+        Fan::Inside { s, .. } => -CRITICAL_ENERGY_SQUARED / (s + libm::hypot(s, CRITICAL_ENERGY_SQUARED.sqrt())),
     }
 }
 
@@ -205,9 +205,9 @@ fn middle(low: f64, high: f64, u: f64) -> f64 {
         } else if x == f64::INFINITY {
             PI
         } else {
-            u.atan2(-x)
+            libm::atan2(u, -x)
         }
     };
     let theta = 0.5 * (angle(low) + angle(high));
-    -u / theta.tan()
+    -u / libm::tan(theta)
 }
