@@ -93,22 +93,22 @@ fn thin_across(in: ThinInput, crossings: u32) -> Surface {
 }
 
 @vertex
-fn thin_vertex_0(in: ThinInput) -> Surface {
+fn thin_vertex_uncrossed(in: ThinInput) -> Surface {
     return thin_across(in, 0u);
 }
 
 @vertex
-fn thin_vertex_1(in: ThinInput) -> Surface {
+fn thin_vertex_once(in: ThinInput) -> Surface {
     return thin_across(in, 1u);
 }
 
 @vertex
-fn thin_vertex_2(in: ThinInput) -> Surface {
+fn thin_vertex_twice(in: ThinInput) -> Surface {
     return thin_across(in, 2u);
 }
 
 @vertex
-fn thin_vertex_3(in: ThinInput) -> Surface {
+fn thin_vertex_thrice(in: ThinInput) -> Surface {
     return thin_across(in, 3u);
 }
 

@@ -1,7 +1,7 @@
 //! A scene's picture by the judge, every pixel by a geodesic of its own.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use glam::{DQuat, DVec3};
 

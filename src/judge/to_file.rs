@@ -1,7 +1,7 @@
 //! `lensrunner trace`: the judge's picture of a case, into a file.
 
 use std::path::Path;
-use std::time::Instant;
+use web_time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
 

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 use std::path::PathBuf;
-use std::time::Instant;
+use web_time::Instant;
 
 use super::score::{Points, Spread, score};
 use super::{Scheme, bake};
@@ -50,7 +50,7 @@ pub fn run(args: &BakeRequest) -> Result<(), super::TableError> {
     if args.points == 0 {
         return Ok(());
     }
-    let seed = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |d| d.as_nanos() as u64);
+    let seed = web_time::SystemTime::now().duration_since(web_time::UNIX_EPOCH).map_or(0, |d| d.as_nanos() as u64);
     for (points, name) in [(Points::Adversarial, "adversarial"), (Points::Friendly, "friendly")] {
         if points == Points::Adversarial && args.scheme != Scheme::Residual {
             continue;

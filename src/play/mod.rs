@@ -36,7 +36,7 @@ pub mod words;
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Instant;
+use web_time::Instant;
 
 use crate::argument::whole;
 use crate::render::Gpu;

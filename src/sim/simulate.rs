@@ -1,7 +1,7 @@
 //! `lensrunner simulate`: the game without graphics, as fast as it goes, written as CSV.
 
 use std::io::{self, Write};
-use std::time::Instant;
+use web_time::Instant;
 
 use crate::scene::pilot_kind::PilotKind;
 use crate::scene::ship::Ai;

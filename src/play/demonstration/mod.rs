@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::JoinHandle;
-use std::time::Instant;
+use web_time::Instant;
 
 use bevy::prelude::*;
 use indicatif::{ProgressBar, ProgressStyle};

@@ -3,6 +3,7 @@
 //! Two windows lie beside the picture, between the HUD's dials. What is painted only asks ([`state::Ask`]); `answer` does it.
 
 mod answer;
+#[cfg(not(target_family = "wasm"))]
 mod clipboard;
 pub mod frames;
 mod groups;
@@ -17,12 +18,12 @@ pub mod saving;
 pub mod state;
 mod time;
 
-use std::time::Instant;
+use web_time::Instant;
 
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_egui::egui::{self, Rect, RichText};
-use bevy_egui::{EguiContexts, EguiPostUpdateSet, EguiPrimaryContextPass};
+use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
 use crate::play::choices::Choices;
 use crate::play::hud::Dials;
@@ -63,12 +64,13 @@ impl Plugin for OverlayPlugin {
             .init_resource::<QualityReport>()
             .init_resource::<FileConfig>()
             .init_resource::<Choices>()
-            .insert_non_send(clipboard::Clipboard::default())
             .add_systems(Update, (answer::answer, moments::fly).chain().in_set(GameSet::Answer).before(run_time))
             .add_systems(Update, (quality::fill_report.run_if(resource_exists::<Quality>), note).in_set(GameSet::Instruments))
             .add_systems(EguiPrimaryContextPass, draw.in_set(PaintSet::Overlay))
-            .add_systems(PostUpdate, clipboard::hand_on.after(EguiPostUpdateSet::ProcessOutput))
             .add_systems(Last, moments::keep);
+        // In a page bevy_egui does it.
+        #[cfg(not(target_family = "wasm"))]
+        app.add_plugins(clipboard::ClipboardPlugin);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Moments: saved as files, and gone to in a replay.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant, SystemTime};
+use web_time::{Duration, Instant, SystemTime};
 
 use bevy::prelude::*;
 

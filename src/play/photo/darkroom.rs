@@ -1,7 +1,7 @@
 //! Pictures that are being made in the background: drawn in any size, or traced exactly.
 
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use web_time::SystemTime;
 
 use bevy::prelude::*;
 

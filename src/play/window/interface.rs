@@ -8,7 +8,7 @@ use bevy::render::render_resource::TextureFormat;
 use bevy::window::{CursorGrabMode, CursorOptions, MonitorSelection, PresentMode, PrimaryWindow, WindowMode};
 use bevy_egui::EguiContexts;
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use crate::play::choices::Choices;
 use crate::play::hud::notice::Notice;
@@ -121,6 +121,10 @@ const LOADING_FRAMES: u32 = 10;
 
 /// Waits until the next frame is due, where frames are limited; while the scene is loaded, until something has come.
 fn limit_frames(session: Res<Session>, loading: Option<Res<Loading>>, wake: Res<Wake>, mut due: Local<Option<Instant>>) {
+    // A page has its own beat, and must not wait.
+    if cfg!(target_family = "wasm") {
+        return;
+    }
     let limit = match session.config.video.frame_limit {
         limit if loading.is_none() => limit,
         0 => LOADING_FRAMES,

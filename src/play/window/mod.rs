@@ -8,7 +8,7 @@ pub mod record;
 pub mod timings;
 
 use std::io::IsTerminal as _;
-use std::time::Instant;
+use web_time::Instant;
 
 use bevy::log::LogPlugin;
 use bevy::prelude::*;
@@ -172,6 +172,9 @@ fn window(session: &Session, options: &Options, surface: &OutputSurface) -> Wind
         resolution: (width, height).into(),
         present_mode: present_mode(video),
         mode: if matches!(surface, OutputSurface::Window) { mode(video) } else { WindowMode::Windowed },
+        // Of a page: the element that is drawn on.
+        canvas: Some("#game".into()),
+        fit_canvas_to_parent: true,
         ..default()
     }
 }

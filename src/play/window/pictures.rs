@@ -3,7 +3,7 @@
 use std::fs::{File, create_dir_all, remove_file, rename, write};
 use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
-use std::time::{SystemTime, UNIX_EPOCH};
+use web_time::{SystemTime, UNIX_EPOCH};
 
 use crate::game_files::user_folder;
 

@@ -118,7 +118,7 @@ fn take_wanted(world: &mut World) {
         return;
     }
     let sender = world.resource::<News>().sender.clone();
-    let stem = stem(std::time::SystemTime::now());
+    let stem = stem(web_time::SystemTime::now());
     take(world, move |image, moment| {
         let without = moment.as_ref().err().copied();
         let saved = encoded(image, moment.ok()).and_then(|png| save_new(&folders(), &stem, "png", &png).map_err(|error| error.to_string()));

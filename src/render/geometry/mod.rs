@@ -112,7 +112,8 @@ impl Draws {
             opaque: pipeline("opaque", opaque),
             own: pipeline("own", Raster { vertex: "own_vertex", fragment: "own_fragment", targets: &mask, depth: None }),
             thin: thin("thin_vertex"),
-            thin_across: ["thin_vertex_0", "thin_vertex_1", "thin_vertex_2", "thin_vertex_3"].map(thin),
+            // A name that ends in a digit is another one in a page.
+            thin_across: ["thin_vertex_uncrossed", "thin_vertex_once", "thin_vertex_twice", "thin_vertex_thrice"].map(thin),
         }
     }
 }

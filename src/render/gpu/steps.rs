@@ -1,6 +1,6 @@
 //! A frame in steps: each pass is submitted on its own and waited for.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use crate::render::Gpu;
 

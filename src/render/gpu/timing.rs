@@ -1,7 +1,7 @@
 //! How long each pass took on the GPU, where it has timestamps, and how many fragments passes shaded, where it counts them; and what the
 //! processor did before.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use crate::render::Gpu;
 use crate::render::gpu::steps::Steps;

@@ -1,7 +1,7 @@
 //! All passes of a prepared frame, recorded.
 
 use std::mem::offset_of;
-use std::time::Instant;
+use web_time::Instant;
 
 use crate::render::disk::types::DiskCounters;
 use crate::render::gpu::readback::DeferredCopy;

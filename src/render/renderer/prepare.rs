@@ -1,6 +1,6 @@
 //! A frame from its input to the buffers of the device, in three steps: planned, uploaded, bound.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use crate::render::frame::{FrameInput, uniform};
 use crate::render::gpu::layout::bind;

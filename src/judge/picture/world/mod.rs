@@ -11,7 +11,7 @@ pub(in crate::judge::picture) mod worldline;
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
-use std::time::Instant;
+use web_time::Instant;
 
 use glam::{DMat3, DVec3};
 

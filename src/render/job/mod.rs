@@ -1,8 +1,17 @@
-//! Work on threads of its own while something else is shown, and what wakes who waits for it.
+//! Work on threads of its own while something else is shown, and what wakes who waits for it. A page has one thread: there the work is done
+//! when it is begun.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+#[cfg(target_family = "wasm")]
+mod page;
+#[cfg(not(target_family = "wasm"))]
+mod thread;
+
+#[cfg(target_family = "wasm")]
+pub use page::Job;
+#[cfg(not(target_family = "wasm"))]
+pub use thread::Job;
+
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
-use std::thread::JoinHandle;
 use std::time::Duration;
 
 use bevy::prelude::Resource;
@@ -28,46 +37,6 @@ impl Wake {
     }
 }
 
-/// Work on a thread of its own.
-#[derive(Debug)]
-pub struct Job<T> {
-    thread: JoinHandle<T>,
-    ended: Arc<AtomicBool>,
-}
-
-/// Says at the end of a thread, a bad one too, that it ends.
-struct Ends(Arc<AtomicBool>, Wake);
-
-impl Drop for Ends {
-    fn drop(&mut self) {
-        self.0.store(true, Ordering::Release);
-        self.1.wake();
-    }
-}
-
-impl<T: Send + 'static> Job<T> {
-    /// Begins work on a thread of this name; its end wakes who waits.
-    pub fn begin(name: &str, wake: &Wake, work: impl FnOnce() -> T + Send + 'static) -> std::io::Result<Job<T>> {
-        let ended = Arc::new(AtomicBool::new(false));
-        let ends = Ends(ended.clone(), wake.clone());
-        let thread = std::thread::Builder::new().name(name.to_owned()).spawn(move || {
-            let _ends = ends;
-            work()
-        })?;
-        Ok(Job { thread, ended })
-    }
-
-    /// Whether [`join`](Job::join) does not wait any more.
-    pub fn is_finished(&self) -> bool {
-        self.ended.load(Ordering::Acquire)
-    }
-
-    /// What was made, or how the thread ended.
-    pub fn join(self) -> std::thread::Result<T> {
-        self.thread.join()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,7 +44,7 @@ mod tests {
     #[test]
     fn the_end_of_a_job_wakes() {
         let wake = Wake::default();
-        let begin = std::time::Instant::now();
+        let begin = web_time::Instant::now();
         let job = Job::begin("job", &wake, || 5).unwrap();
         wake.wait(Duration::from_secs(60));
         assert!(job.is_finished() && begin.elapsed() < Duration::from_secs(50));
