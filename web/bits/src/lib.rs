@@ -22,6 +22,13 @@ const SPAN: f64 = 64.0;
 /// The parts of the comparison.
 pub const PARTS: [&str; 3] = ["replays", "pilots", "scenes"];
 
+/// The parts of the comparison, for JavaScript.
+#[cfg(target_family = "wasm")]
+#[wasm_bindgen::prelude::wasm_bindgen]
+pub fn parts() -> Vec<String> {
+    PARTS.map(String::from).into()
+}
+
 /// The lines of a part. `wrong`: after the first hash a ship is off by the last bit of one number, as by a sine of another library.
 #[cfg_attr(target_family = "wasm", wasm_bindgen::prelude::wasm_bindgen)]
 pub fn lines(part: &str, wrong: bool) -> Result<String, String> {

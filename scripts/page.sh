@@ -1,0 +1,44 @@
+# Sourced by ./test-web after prepare.sh: finds or makes a compiler for pages (wasm32-unknown-unknown), and sets `page_env`, with which
+# cargo builds for it.
+page_target=wasm32-unknown-unknown
+page_cache="${XDG_CACHE_HOME:-$HOME/.cache}/lensrunner"
+page_env=(env CARGO_TARGET_DIR="$CARGO_TARGET_DIR-web")
+
+# The standard library of the compiler in use.
+has_page_library() { [ -d "$(rustc --print sysroot)/lib/rustlib/$page_target/lib" ]; }
+
+if ! has_page_library && command -v rustup >/dev/null; then
+  echo "Fetching the standard library for $page_target" >&2
+  timeout 300 rustup target add "$page_target" >/dev/null 2>&1 || true
+fi
+if ! has_page_library; then
+  # Debian has a newer compiler with its sources; the library is built from them once.
+  packages=(rustc-web cargo-web rust-web-src rust-web-llvm lld-22)
+  if command -v apt-get >/dev/null && ! dpkg -s "${packages[@]}" >/dev/null 2>&1; then
+    sudo=""
+    [ "$(id -u)" = 0 ] || sudo=sudo
+    echo "Installing ${packages[*]}" >&2
+    { $sudo apt-get update -qq && $sudo apt-get install -y -qq --no-install-recommends "${packages[@]}"; } >/dev/null || true
+  fi
+  [ -x /usr/bin/rustc ] && [ -x /usr/bin/cargo ] || {
+    echo "There is no standard library for $page_target: rustup target add $page_target" >&2
+    exit 1
+  }
+  sysroot="$page_cache/sysroot-$(/usr/bin/rustc --version | cut -d' ' -f2)"
+  if [ ! -d "$sysroot" ]; then
+    echo "Building the standard library for $page_target, once: two minutes" >&2
+    work="$(mktemp -d)"
+    mkdir -p "$work/src" "$work/sysroot/lib/rustlib/$page_target/lib"
+    printf '[package]\nname = "empty"\nedition = "2021"\n[lib]\ncrate-type = ["cdylib"]\n[profile.release]\npanic = "abort"\n[workspace]\n' > "$work/Cargo.toml"
+    touch "$work/src/lib.rs"
+    (cd "$work" && RUSTC_BOOTSTRAP=1 RUSTC=/usr/bin/rustc CARGO_TARGET_DIR="$work/target" /usr/bin/cargo build --quiet \
+      -Zbuild-std=std,panic_abort --target "$page_target" --release)
+    cp "$work/target/$page_target/release/deps/"*.rlib "$work/sysroot/lib/rustlib/$page_target/lib/"
+    host="$(/usr/bin/rustc -vV | sed -n 's/^host: //p')"
+    ln -s "/usr/lib/rustlib/$host" "$work/sysroot/lib/rustlib/"
+    mkdir -p "$page_cache"
+    mv "$work/sysroot" "$sysroot"
+    rm -rf "$work"
+  fi
+  page_env+=(RUSTC=/usr/bin/rustc CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS="--sysroot $sysroot")
+fi
