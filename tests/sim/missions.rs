@@ -101,9 +101,6 @@ fn the_table_of_balance_is_of_these_missions() {
     });
 }
 
-/// Standard error of a share that 50 flights tell.
-const CHANCE: f64 = 0.07;
-
 /// What the table of balance must say.
 #[test]
 fn missions_are_balanced() {
@@ -134,10 +131,10 @@ fn missions_are_balanced() {
         // Who does as the screen says wins on easy at the first flight.
         let [ignoring, person, practised] =
             [PilotKind::Ignoring, PilotKind::Person, PilotKind::Practised].map(|pilot| share(index, Difficulty::Easy, pilot));
-        assert!(person >= 0.6 && practised >= 0.8, "{name}: a person wins {person}, with practice {practised}");
+        assert!(person >= 0.6 && practised >= 0.9, "{name}: a person wins {person}, with practice {practised}");
         // Without the signs hardly half as often; the others are won by the assist, or by flying to the mark.
         let by_flying = ["01-training", "05-the-last-orbit", "07-arrive-young"].contains(&name.as_str());
-        assert!(by_flying || ignoring < 0.5 * person + CHANCE, "{name}: who ignores the signs wins {ignoring}");
+        assert!(by_flying || ignoring < 0.5 * person, "{name}: who ignores the signs wins {ignoring}");
     }
 }
 
