@@ -14,6 +14,8 @@ use lensrunner::spacetime::matter::ShipState;
 use lensrunner::spacetime::orbit::circular_orbit;
 
 const STEP: f64 = 1.0 / 32.0;
+/// How long an advice stands, in r_s/c: what it asks for is thrust within that time.
+const STANDS: f64 = 0.15;
 /// Catch radius, in r_s.
 const REACH: f64 = 0.8;
 
@@ -187,7 +189,7 @@ fn who_follows_mark_and_sign_holds_the_target() {
             let command = match advice {
                 _ if near || guide.brake == Brake::Now => matches.command(&own, &engine(), Some(known.point.velocity()), &settings).command,
                 Some(advice) => {
-                    let push = advice.thrust().map_or(DVec3::ZERO, |advice| advice.push / STEP);
+                    let push = advice.thrust().map_or(DVec3::ZERO, |advice| advice.push / STANDS);
                     Command { thrust: own.attitude.conjugate() * push.clamp_length_max(engine().max_thrust), rates: DVec3::ZERO }
                 }
                 // Near it: nose to it, the assist against it, thrust while there is room.
@@ -204,6 +206,6 @@ fn who_follows_mark_and_sign_holds_the_target() {
                 |state: &ShipState, command| fly(&Flight { state: *state, fuel: f64::INFINITY }, 0.0, STEP, command, &[], |_| ()).0.state;
             (own, target) = (next(&own, command), next(&target, Command::default()));
         }
-        assert!(held > 2.0 && spent < 3.0, "{radius} {phase} {tilt}: held {held}, spent {spent} c");
+        assert!(held > 2.0 && spent < 5.0, "{radius} {phase} {tilt}: held {held}, spent {spent} c");
     }
 }

@@ -1,7 +1,7 @@
 //! Replays: a flight as the list of the player's commands, from which it is flown again to the same bits.
 //!
 //! A replay is a TOML file. Its `log` holds the records, packed (column by column, differences, DEFLATE, Base64); `check` is the CRC-32 of
-//! all lines before it. The same version of the program on the same kind of machine flies it to the same end; others may round another way.
+//! all lines before it. The same version of the program flies it to the same end on every machine (`./test-web`).
 
 mod packing;
 
