@@ -79,7 +79,7 @@ score-fuel = Least Δv
 score-none = not yet won
 score-unit-fuel = c of Δv
 score-better = { $score }: your best, before { $before }
-score-first = { $score }: your first
+score-first = { $score }: your first win
 score-worse = { $score }, your best { $before }
 score-only = { $score }
 
@@ -110,7 +110,7 @@ marker-now = now (dashed ring): where the target is at this moment. Fly to this 
 marker-seen = seen (diamond): its picture. The light left so long ago, from where it was.
 marker-second = 2nd image (small diamond): the same ship by light round the hole's far side.
 marker-course = course (circle): where you fly to. The cross is your nose. The mouse leads the view at once; the ship follows as fast as a body can turn, slowly in slow motion.
-marker-thrust = thrust (four corners): nose and thrust there, so much in c, and your fall leads to the target, from near the hole first up. Gone: it does already.
+marker-thrust = thrust (four corners): nose and thrust there, so much in c, and your fall leads to the target, from near the hole first up. Where there is none, the words under CLOSING say why.
 marker-drift = drift (three spokes): your motion against the target. Push it onto the ring, and you come; take it away, and you stay.
 marker-fallen = cross: where the target is if it has fallen freely since its light left it.
 marker-lines = dotted lines: how you and the target fall on; small rings: nearest approach.
@@ -140,6 +140,9 @@ hud-near-edge = TOO FAR OUT: TURN BACK
 hud-moving = drift
 hud-thrust = thrust { $push } c
 hud-thrust-short = thrust
+hud-meets = you meet it: fall on
+hud-meets-by-thrust = thrust leads there: see the mark
+hud-meets-not = no fall leads there yet: keep the orbit
 hud-facing = NOSE TO THRUST
 hud-against = brakes
 hud-fallen = here, if it fell freely
@@ -215,11 +218,12 @@ unit-minutes = { $value } minutes
 ## The coach
 coach-hopeless = No fuel, and your orbit does not meet it any more. { $button }: the same start again
 coach-hole = The hole is near: thrust along your motion, early
-coach-brake = Too fast to stop at it: hold { $button } until the sign is gone
+coach-brake = Too fast to stop at it: hold { $button } until CLOSING is 0
 coach-drift = You drift past it: tap { $button } until ASSIST: TARGET is at the left, or push the mark “drift” onto the ring “now”
 coach-gate = Gate { $number } missed: its middle was { $nearest } r_s off, its ring is { $radius } wide. Hold { $button }: nose to it
 coach-fuel = Little fuel: fall, and keep it for braking
-feat-kept = You flew with it { $distance } r_s off, { $speed } c against it, at r = { $radius }.
+feat-kept = You held it at { $distance } r_s, moving at { $speed } c against it, at r = { $radius }.
+feat-catches = Caught at T = { $times }.
 feat-shot = Your last bolt flew { $span } r_s/c.
 feat-shot-round = Your last bolt flew { $span } r_s/c, { $angle }° round the hole.
 lesson-fell = You fell too deep. Below r = 3 only speed along the orbit holds you: thrust along your motion, early.

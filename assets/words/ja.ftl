@@ -79,7 +79,7 @@ score-fuel = 最小の Δv
 score-none = まだ勝っていません
 score-unit-fuel = c（Δv）
 score-better = { $score }：新記録、これまでは { $before }
-score-first = { $score }：初めての記録
+score-first = { $score }：初めての成功
 score-worse = { $score }、最高記録は { $before }
 score-only = { $score }
 
@@ -110,7 +110,7 @@ marker-now = 現在（破線の輪）：標的が今いるところ。ここへ�
 marker-seen = 見かけ（ひし形）：標的の姿。その光は少し前に、そのときの場所を出ました。
 marker-second = 第2の像（小さいひし形）：ブラックホールの反対側を回った光による同じ船。
 marker-course = 進路（円）：飛んでいく向き。十字は船首の向き。マウスを動かすと視線はすぐに動き、船は物体が回れる速さであとから追う。スローモーションではゆっくり追う。
-marker-thrust = 噴射（四つの角）：船首をここへ向けて、数字（c）だけ噴射すると、落ちる道が標的に届く。ブラックホールの近くでは、まず上へ。印が消えたら、もう届いている。
+marker-thrust = 噴射（四つの角）：船首をここへ向けて、数字（c）だけ噴射すると、落ちる道が標的に届く。ブラックホールの近くでは、まず上へ。印がない時は、「近づく速さ」の下の言葉がわけを示す。
 marker-drift = 横流れ（三本の線）：標的に対する動き。輪に重ねれば近づき、消せばそこにとどまる。
 marker-fallen = 十字：光が出たあと自由に落ちていれば、標的が今いるところ。
 marker-lines = 点線：このまま落ちていく道。小さい輪：最も近づくところ。
@@ -139,6 +139,9 @@ hud-brake-now = 今すぐ減速：{ $button } を押し続ける
 hud-near-edge = 遠すぎます：もどれ
 hud-thrust = 噴射 { $push } c
 hud-thrust-short = 噴射
+hud-meets = このまま落ちれば会えます
+hud-meets-by-thrust = 噴射の印の向きで会えます
+hud-meets-not = まだ道がありません：軌道を保つ
 hud-facing = 船首を噴射の印へ
 hud-moving = 横流れ
 hud-against = 減速
@@ -215,10 +218,11 @@ unit-minutes = { $value } 分
 ## コーチ
 coach-hopeless = 燃料がなく、この軌道ではもう標的に近づけません。{ $button }：同じ始まりでもう一度
 coach-hole = ブラックホールが近い：早めに進む向きへ噴射
-coach-brake = 速すぎて標的で止まれません：表示が消えるまで { $button } を押し続ける
+coach-brake = 速すぎて標的で止まれません：「近づく速さ」が 0 になるまで { $button } を押し続ける
 coach-drift = 標的のそばを通り過ぎます：左に「アシスト：標的」が出るまで { $button } を押すか、「横流れ」の印を「現在」の輪に重ねる
 coach-gate = ゲート { $number } を外しました。中心から { $nearest } r_s のところを通りました(輪の半径は { $radius })。{ $button } を押し続けると、船首がゲートへ向きます。
 coach-fuel = 燃料わずか：落下にまかせ、減速に残す
+feat-catches = つかまえた時刻：T = { $times }。
 feat-kept = r = { $radius } で、標的から { $distance } r_s のところを { $speed } c の差でともに飛びました。
 feat-shot = 最後の弾は { $span } r_s/c 飛びました。
 feat-shot-round = 最後の弾は { $span } r_s/c 飛び、ブラックホールを { $angle }° 回りました。

@@ -46,8 +46,8 @@ const STEP: f64 = 0.5;
 const DEEP: f64 = 1.7;
 /// Another ship is near within this distance, in r_s: it takes a hand to hold it or to keep off.
 const NEAR: f64 = 0.8;
-/// Wall time in which the pace changes, in seconds.
-const LAG: f64 = 0.5;
+/// Wall time in which the pace falls, in seconds, and in which it rises: the first touch does not throw one forward.
+const LAG: (f64, f64) = (0.5, 1.5);
 
 /// Slows the game near danger. Needs [`Session`] and [`PlayerState`].
 pub struct PacePlugin;
@@ -80,7 +80,8 @@ fn slow_down(
     };
     // Until the player does something there is time to read.
     let wanted = if by_hand && !player.touched { wanted.min(BEFORE_INPUT) } else { wanted };
-    slowing.0 += (wanted - slowing.0) * (1.0 - (-real.delta_secs_f64() / LAG).exp());
+    let lag = if wanted < slowing.0 { LAG.0 } else { LAG.1 };
+    slowing.0 += (wanted - slowing.0) * (1.0 - (-real.delta_secs_f64() / lag).exp());
 }
 
 /// Lets the steps pass that were asked for while time stands still.

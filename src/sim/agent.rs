@@ -13,7 +13,7 @@ use super::by_hand::Avoiding;
 use super::goals::{ActiveMission, Progress, needed};
 use super::guidance::{approach, guidance};
 use super::history::History;
-use super::intercept::{Advice, Intercept, Way};
+use super::intercept::{Advice, Way};
 use super::known::Known;
 use super::pilot::aim::shot_passes;
 use super::pilot::rollout::Point;
@@ -115,7 +115,9 @@ struct TargetSeen {
     pass: Option<[f64; 2]>,
     /// Within this it is caught or flown through, r_s; null where the goal is another.
     reach: Option<f64>,
-    /// The change of velocity now, on rest-frame axes, c, after which the fall leads there; null where it does already, or none does.
+    /// What leads there: "fall", "push", or as yet nothing, "wait"; null near it, and where nothing is advised.
+    leads: Option<&'static str>,
+    /// The change of velocity now, on rest-frame axes, c, after which the fall leads there.
     push: Option<DVec3>,
     /// How near a bolt fired now comes to it, r_s; null without bolts.
     bolt: Option<f64>,
@@ -345,13 +347,18 @@ fn target_seen(world: &mut World, own: Entity, state: &ShipState) -> Option<Targ
         brake: ["free", "soon", "now"][guide.brake as usize],
         pass: approach(&point, &known).map(|near| [near.distance, near.ahead]),
         reach,
-        push: advice.map(|advice| advice.push),
+        leads: advice.map(|advice| match advice {
+            Advice::Coast => "fall",
+            Advice::Thrust(_) => "push",
+            Advice::Wait => "wait",
+        }),
+        push: advice.and_then(Advice::thrust).map(|advice| advice.push),
         bolt: world.get::<Gun>(own).filter(|gun| gun.left > 0).map(|_| shot_passes(state, &known.point)),
     })
 }
 
-/// What is known of the target, how near it must be, and where to thrust.
-type TargetKnown = (Known, Option<f64>, Option<Intercept>);
+/// What is known of the target, how near it must be, and what leads there.
+type TargetKnown = (Known, Option<f64>, Option<Advice>);
 
 fn known_target(
     In((own, state, time)): In<(Entity, ShipState, f64)>,
@@ -361,7 +368,7 @@ fn known_target(
     let known = targets.known(own, &state, time)?;
     let (engine, mut way) = ships.get_mut(own).ok()?;
     let advice = targets.advice((own, &mut way), &state, &known, time, engine.max_thrust);
-    Some((known, targets.reach(own), advice.and_then(Advice::thrust)))
+    Some((known, targets.reach(own), advice))
 }
 
 fn goal(world: &World) -> Option<GoalSeen> {

@@ -23,14 +23,14 @@ const PUSH: f64 = 1e-3;
 /// A larger push than this, in c, is none that a person flies.
 const LARGEST: f64 = 0.7;
 /// No way may come nearer to the hole than this, in r_s, unless the target itself does.
-const LOWEST: f64 = 2.3;
+const LOWEST: f64 = 2.6;
 /// The engine thrusts for at most this share of the time until the meeting: a push is taken to come at once.
 const BURN: f64 = 0.5;
 /// What a r_s/c of waiting counts for, in c: whoever is chased does not wait.
 const HASTE: f64 = 0.025;
 /// The way that one is on already counts for so much less, in c: to turn to another costs time, and two that are as cheap would change
 /// places.
-const KEPT: f64 = 0.05;
+const KEPT: f64 = 0.1;
 /// So many of the cheapest ways are flown, so many steps apart.
 const TRIED: usize = 5;
 /// See [`TRIED`].
@@ -57,19 +57,31 @@ pub enum Advice {
     Coast,
     /// Thrust.
     Thrust(Intercept),
+    /// No fall that a push begins leads there now: keep the orbit.
+    Wait,
 }
+
+/// A smaller push than this, in c, is left until it has grown: a turn of the nose for it costs more.
+const LEAST: f64 = 0.02;
 
 /// Nearer than this, in r_s, one flies to the target itself: it has no time to be elsewhere, and its own thrust counts more than a fall.
 pub const NEAR: f64 = 4.0;
 
 /// What leads `own`, with an engine of `thrust` (c²/r_s), within `reach` (r_s) of a ship that is to be flown with; from deep near the hole
-/// first up. None where no fall does, and near it. `kept`: see [`intercept`].
+/// first up. None near it. `kept`: see [`intercept`].
 pub fn advised(own: &Point, known: &Known, thrust: f64, reach: f64, kept: Option<f64>) -> Option<Advice> {
     if own.x.distance(known.point.x) < NEAR {
         return None;
     }
     let meets = approach(own, known).is_some_and(|near| near.distance < MEETS * reach);
-    if meets { Some(Advice::Coast) } else { intercept(own, known, thrust, kept).or_else(|| climb(own, known)).map(Advice::Thrust) }
+    if meets {
+        return Some(Advice::Coast);
+    }
+    Some(match intercept(own, known, thrust, kept).or_else(|| climb(own, known)) {
+        None => Advice::Wait,
+        Some(found) if found.push.length() < LEAST => Advice::Coast,
+        Some(found) => Advice::Thrust(found),
+    })
 }
 
 /// The way that a ship is on to its target. It is found anew now and then, and one stays on it until another is clearly better.
@@ -97,7 +109,11 @@ impl Way {
         if !is_same || !(-FOUND..FOUND).contains(&since) {
             let kept = self.meets.filter(|_| is_same && (-FOUND..LEFT).contains(&since)).map(|meets| meets - time);
             let advice = advised(own, known, thrust, reach, kept);
-            let meets = advice.and_then(Advice::thrust).map(|intercept| time + intercept.ahead);
+            let meets = match advice {
+                Some(Advice::Thrust(intercept)) => Some(time + intercept.ahead),
+                Some(Advice::Coast) => kept.map(|ahead| time + ahead),
+                Some(Advice::Wait) | None => None,
+            };
             *self = Way { found: time, reach, meets, advice };
         }
         self.advice
@@ -111,14 +127,18 @@ impl Advice {
     /// The assist of who turns to it, from `radius` (r_s), with the mark at `ahead` on body axes. It rests, since it would fly another way; but
     /// near the hole it holds the ship until the nose is there.
     pub fn assist(self, radius: f64, ahead: DVec3) -> AssistMode {
-        let turns = self != Advice::Coast && ahead.angle_between(DVec3::NEG_Z) > ON_MARK;
-        if radius < DEEP && turns { AssistMode::Orbit } else { AssistMode::Off }
+        let turns = radius < DEEP && ahead.angle_between(DVec3::NEG_Z) > ON_MARK;
+        match self {
+            Advice::Thrust(_) if turns => AssistMode::Orbit,
+            Advice::Wait => AssistMode::Orbit,
+            Advice::Thrust(_) | Advice::Coast => AssistMode::Off,
+        }
     }
 
     /// The thrust that it asks for.
     pub fn thrust(self) -> Option<Intercept> {
         match self {
-            Advice::Coast => None,
+            Advice::Coast | Advice::Wait => None,
             Advice::Thrust(intercept) => Some(intercept),
         }
     }

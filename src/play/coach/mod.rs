@@ -20,6 +20,7 @@ use crate::play::picture::stage_loading::CurrentStage;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::words;
+use crate::scene::mission::GoalTask;
 use crate::sim::SimEvent;
 use crate::sim::assist::AssistMode;
 use crate::sim::guidance::{Brake, Guidance, meets};
@@ -57,6 +58,8 @@ const FLIGHTS: u32 = 3;
 const SHOWN: f64 = 7.0;
 /// Below this radius, in r_s, the hole is near: the innermost stable circle is at 3.
 const NEAR_HOLE: f64 = 2.6;
+/// Below this one, in r_s, a fall that ends in the hole is to be mended at once.
+const FALLING: f64 = 5.0;
 /// Faster sideways than this, in c, nearer than so many catch radii, drift is worth a hint.
 const DRIFT: (f64, f64) = (0.12, 8.0);
 /// T between two looks at whether a flight without fuel can still be won, in r_s/c.
@@ -106,6 +109,11 @@ fn review_flight(
         }
     }
     for event in events.read() {
+        if let (&SimEvent::GoalDone { goal, time }, Some(mission)) = (event, &now.mission)
+            && matches!(mission.0.goals.get(goal.wrapping_sub(1)).map(|goal| &goal.task), Some(GoalTask::Hold { .. }))
+        {
+            review.note_catch(time);
+        }
         if let Some(bolt) = now.bolt_that_hit(event) {
             let span = event.time() - bolt.fired;
             review.note_hit(span, |share| bolt.history.at(bolt.fired + share * span).position);
@@ -129,7 +137,7 @@ fn give_hints(
     let session = &now.session;
     let flies = *screen.get() == Screen::Playing && !player.autopilot && playback.is_none() && player.touched;
     let seconds = real.elapsed_secs_f64();
-    if *screen.get() == Screen::Result && notice.until == coach.until {
+    if *screen.get() != Screen::Playing && notice.until == coach.until {
         notice.until = 0.0;
     }
     if !flies || !session.config.interface.coach || notice.until > seconds {
@@ -153,15 +161,17 @@ fn give_hints(
 fn is_due(hint: Hint, panel: &Panel, mode: AssistMode, hopeless: bool, inside: bool) -> bool {
     let Some(read) = panel.instruments else { return false };
     let target = panel.guidance.zip(panel.reach);
+    let falls_in = !inside && read.lowest.is_none() && read.radius < FALLING;
     match hint {
         Hint::Hopeless => hopeless,
-        Hint::Hole => !inside && read.radius < NEAR_HOLE && target.is_some(),
+        Hint::Hole => !inside && (falls_in || read.radius < NEAR_HOLE) && target.is_some(),
         Hint::Brake => target.is_some_and(|(guide, _)| guide.brake == Brake::Now),
         Hint::Drift => {
             let drifts = |(guide, reach): (Guidance, f64)| {
-                guide.brake != Brake::Now && guide.sideways() > DRIFT.0 && guide.apart.length() < DRIFT.1 * reach
+                let misses = panel.pass.is_none_or(|near| near.distance > reach);
+                misses && guide.brake != Brake::Now && guide.sideways() > DRIFT.0 && guide.apart.length() < DRIFT.1 * reach
             };
-            mode != AssistMode::Target && panel.thrust.is_none() && target.is_some_and(drifts)
+            !falls_in && mode != AssistMode::Target && panel.thrust.is_none() && target.is_some_and(drifts)
         }
         Hint::Fuel => read.fuel.is_some_and(|share| share > 0.0 && share < LOW_FUEL),
     }

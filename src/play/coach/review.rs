@@ -49,6 +49,8 @@ pub struct Review {
     kept: Option<Feat>,
     /// The bolt that hit last.
     shot: Option<Feat>,
+    /// T of each catch, in r_s/c.
+    catches: Vec<f64>,
     /// Where the brake sign would have been, at the speed of the fastest pass, in r_s.
     brake_from: f64,
 }
@@ -160,6 +162,16 @@ impl Review {
             Lesson::Dry(_) => self.dry,
             Lesson::Far(_) => self.near,
         }
+    }
+
+    /// Notes a catch at T = `time` (r_s/c).
+    pub fn note_catch(&mut self, time: f64) {
+        self.catches.push(time);
+    }
+
+    /// T of each catch, in r_s/c.
+    pub fn catches(&self) -> &[f64] {
+        &self.catches
     }
 
     /// Notes the bolt that hit: where it was, `at` times from 0 to 1 of its flight of `span` (r_s/c).

@@ -11,6 +11,7 @@ use crate::play::player_state::{PlayerState, assist_words};
 use crate::play::session::Session;
 use crate::scene::pilot_kind::PilotKind;
 use crate::sim::guidance::{Brake, Guidance};
+use crate::sim::intercept::Advice;
 
 /// Fuel is low below this share of a full tank.
 pub const LOW_FUEL: f64 = 0.15;
@@ -56,6 +57,8 @@ pub struct Going {
     pub by_light: bool,
     /// Motion against the target.
     pub guidance: Option<Guidance>,
+    /// What leads to it.
+    pub advice: Option<Advice>,
     /// No thrust is asked for: what there is, the assist's.
     pub helped: bool,
 }
@@ -157,6 +160,14 @@ fn target(scale: &Scale, read: &Bearing, going: Going) -> Vec<Line> {
         let words = language.fill("hud-stops", &[("sideways", numbers[0].as_str()), ("stopping", numbers[1].as_str())]);
         lines.push((Density::Reduced, words, 12.0, closing));
     }
+    lines.extend(going.advice.map(|advice| {
+        let (key, colour) = match advice {
+            Advice::Coast => ("hud-meets", OWN),
+            Advice::Thrust(_) => ("hud-meets-by-thrust", TEXT),
+            Advice::Wait => ("hud-meets-not", TRUE),
+        };
+        (Density::Reduced, language.say(key), 12.0, colour)
+    }));
     if let Some(g) = read.shift {
         let key = if g >= 1.0 { "hud-light-bluer" } else { "hud-light-redder" };
         lines.push((Density::Full, language.fill(key, &[("g", format!("{g:.3}").as_str())]), 12.0, TEXT));

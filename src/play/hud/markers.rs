@@ -87,7 +87,7 @@ pub fn paint(painter: &Painter, rect: Rect, (panel, said): (&Panel, &Panel), tak
     let find = |direction: DVec3| marker_position(direction, panel.field_of_view, size, f64::from(FREE + 0.5 * ARROW));
     let point = |at: [f64; 2]| rect.min + vec2(at[0] as f32, at[1] as f32);
     let Taken { panels, other } = taken;
-    let before = panels.len() + other.len();
+    let (panel_count, before) = (panels.len(), panels.len() + other.len());
     let mut board = Board { painter, rect, marked: panels.clone(), taken: [panels, other].concat(), names: Vec::new() };
     // Where the ship points: not ahead while one looks aside, or the mouse leads the camera.
     let nose = panel.nose.map(find);
@@ -105,7 +105,7 @@ pub fn paint(painter: &Painter, rect: Rect, (panel, said): (&Panel, &Panel), tak
                 _ => None,
             })
             .collect();
-        dotted(painter, &points, colour);
+        dotted(painter, &points, &board.marked[..panel_count], colour);
     }
     for &(direction, time) in &panel.aims {
         if let MarkerPosition::On(at) = find(direction) {
@@ -212,7 +212,8 @@ pub fn paint(painter: &Painter, rect: Rect, (panel, said): (&Panel, &Panel), tak
         board.arrow(at, towards, &language.say("hud-target"), SEEN);
     }
     if let Some(MarkerPosition::Edge(at, towards)) = truth {
-        board.arrow(at, towards, &language.say("hud-now"), TRUE);
+        let name = [Some(language.say("hud-now")), passes(said, language)].into_iter().flatten().collect::<Vec<_>>().join(" · ");
+        board.arrow(at, towards, &name, TRUE);
     }
     if let Some(MarkerPosition::Edge(at, towards)) = fallen {
         board.arrow(at, towards, &language.say("hud-fallen-short"), SEEN);
@@ -339,10 +340,11 @@ fn with_pass(name: String, panel: &Panel, language: Language) -> String {
 }
 
 /// A line of dots with a dark edge, with gaps where a place is not on the screen; each piece ends in an arrow, so that its way is read.
-fn dotted(painter: &Painter, points: &[Option<Pos2>], colour: Color32) {
+/// Under `panels` there are none.
+fn dotted(painter: &Painter, points: &[Option<Pos2>], panels: &[Rect], colour: Color32) {
     for piece in points.split(|point| point.is_none()) {
         let piece: Vec<Pos2> = piece.iter().flatten().copied().collect();
-        for pair in piece.windows(2) {
+        for pair in piece.windows(2).filter(|pair| !panels.iter().any(|panel| panel.contains(pair[0]))) {
             rimmed(painter, Stroke::new(1.4, colour), |stroke| Shape::line_segment([pair[0], pair[0] + (pair[1] - pair[0]) * 0.5], stroke));
         }
         let Some(&tip) = piece.last() else { continue };

@@ -136,6 +136,7 @@ fn draw(
             slowing: slowing.0,
             by_light: panel.by_light,
             guidance: numbers.guidance.filter(|_| panel.reach.is_some()),
+            advice: numbers.advice,
             helped,
         },
     );
@@ -334,6 +335,7 @@ mod tests {
     use crate::play::hud::layout::overlap;
     use crate::play::hud::paint::tests::on_canvas;
     use crate::scene::config::parse;
+    use crate::sim::intercept::Advice;
     use crate::spacetime::matter::ShipState;
     use glam::DVec3;
 
@@ -374,7 +376,7 @@ mod tests {
                     &session,
                     &PlayerState::default(),
                     &read,
-                    dials::Going { replayed: false, slowing: 0.5, by_light: true, guidance: None, helped: false },
+                    dials::Going { replayed: false, slowing: 0.5, by_light: true, guidance: None, advice: Some(Advice::Wait), helped: false },
                 );
                 text_boxes.push(countdown(painter, rect, &scale, &Countdown::at(1.0, 400.0)));
                 assert_eq!(text_boxes.len(), 6);

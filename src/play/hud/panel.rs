@@ -57,7 +57,9 @@ pub struct Panel {
     pub pass: Option<Pass>,
     /// Motion against the target.
     pub guidance: Option<Guidance>,
-    /// Where thrust leads to what one is after, in camera axes, and how much of it, in c; None where one's fall does.
+    /// What leads to the ship that one is after.
+    pub advice: Option<Advice>,
+    /// Where thrust leads to it, in camera axes, and how much of it, in c; None where one's fall does.
     pub thrust: Option<(glam::DVec3, f64)>,
     /// Where that motion leads, in camera axes; None while there is hardly any.
     pub moving: Option<glam::DVec3>,
@@ -245,6 +247,7 @@ pub(in crate::play) fn read_panel(
         gate,
         lines,
         pass: place.filter(|_| is_own).or(known).and_then(|known| ahead::pass(&camera, &state, &known)),
+        advice,
         thrust: advice.and_then(Advice::thrust).map(|advice| (ahead(advice.push.normalize()), advice.push.length())),
         moving: guidance.filter(|guide| guide.velocity.length() > STILL).map(|guide| ahead(guide.velocity.normalize())),
         fallen: known.filter(|known| known.age > 0.0).and_then(|known| true_direction(&camera, known.point.x)),

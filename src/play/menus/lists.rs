@@ -223,7 +223,7 @@ fn buttons(session: &Session, menu: &Menu) -> Vec<Entry> {
 }
 
 /// What an action is called.
-fn action_words(language: Language, action: Action) -> String {
+pub(super) fn action_words(language: Language, action: Action) -> String {
     language.say(&format!("action-{}", action.key().replace('_', "-")))
 }
 

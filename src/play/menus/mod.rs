@@ -112,6 +112,8 @@ fn draw(
         Screen::Paused => card(context, "pause", WIDE, |ui| {
             heading(ui, &language.say("menu-paused"));
             rows(ui, menu);
+            ui.add_space(6.0);
+            paragraph(ui, &words::keys_of_flight(prompts));
             markers(ui, language);
             footer(ui, prompts, false);
         }),

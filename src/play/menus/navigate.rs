@@ -1,6 +1,8 @@
 //! What a touch of a menu does.
 
+use bevy::ecs::message::MessageCursor;
 use bevy::input::gamepad::Gamepad;
+use bevy::input::keyboard::KeyboardInput;
 use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
 
@@ -10,7 +12,7 @@ use crate::play::input::bindings::{bound, setting_of};
 use crate::play::input::button::{Button, Device};
 use crate::play::menus::change::{at_share, stepped};
 use crate::play::menus::entries::{Does, Entry, Menu, Page, SLOTS, Touch, Way};
-use crate::play::menus::keys::{Held, touches};
+use crate::play::menus::keys::{Held, pressed, touches};
 use crate::play::menus::lists::{entries, is_on, settings_of};
 use crate::play::menus::screens::{MenuAction, Screen};
 use crate::play::missions::Catalogue;
@@ -24,8 +26,10 @@ use crate::scene::{Difficulty, GameConfig};
 const SIZES: [[u32; 2]; 6] = [[960, 540], [1280, 720], [1600, 900], [1920, 1080], [2560, 1440], [3840, 2160]];
 
 /// Reads the devices, and does what they ask of the menu of the screen.
-pub fn navigate(world: &mut World, mut held: Local<Held>) {
+pub fn navigate(world: &mut World, mut held: Local<Held>, mut typed: Local<MessageCursor<KeyboardInput>>) {
     refresh(world);
+    let messages: Vec<KeyboardInput> =
+        world.get_resource::<Messages<KeyboardInput>>().map(|messages| typed.read(messages).cloned().collect()).unwrap_or_default();
     let mut todo = std::mem::take(&mut world.resource_mut::<Menu>().touched);
     if world.resource::<Menu>().awaits.is_some() {
         await_button(world);
@@ -33,7 +37,8 @@ pub fn navigate(world: &mut World, mut held: Local<Held>) {
         let now = world.resource::<Time<Real>>().elapsed_secs_f64();
         let mut pads = world.query::<&Gamepad>();
         let pads: Vec<&Gamepad> = pads.iter(world).collect();
-        todo.extend(touches(world.resource::<ButtonInput<KeyCode>>(), &pads, now, &mut held));
+        let keys = world.resource::<ButtonInput<KeyCode>>();
+        todo.extend(touches(keys, &pressed(keys, messages.into_iter()), &pads, now, &mut held));
     }
     if world.resource::<Menu>().entries.is_empty() {
         return;

@@ -29,6 +29,10 @@ pub(super) fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, pane
     if let Some(feat) = review.feat(outcome) {
         line(&feat_words(language, feat), 15.0, TRUE);
     }
+    if let [_, _, ..] = review.catches() {
+        let times: Vec<String> = review.catches().iter().map(|time| format!("{time:.1}")).collect();
+        line(&language.fill("feat-catches", &[("times", times.join(", ").as_str())]), 15.0, TRUE);
+    }
     if let Some(key) = pilot(flown) {
         line(&language.say(key), 13.0, TRUE);
     }

@@ -1,6 +1,7 @@
 //! What the menus say of a flight, in words.
 
 use crate::play::hud::instruments::Scale;
+use super::lists::action_words;
 use crate::play::input::action::Action;
 use crate::play::input::bindings::Bindings;
 use crate::play::input::button::Device;
@@ -57,6 +58,24 @@ pub(super) fn hint(session: &Session, prompts: Prompts) -> String {
     // A mission says by itself where to fly.
     parts.extend((session.scene.mission.is_none() && chases).then(|| together(&prompts.language.say("hint-now"))));
     parts.join("  ·  ")
+}
+
+/// What a pilot presses most, for the pause.
+pub(super) fn keys_of_flight(prompts: Prompts) -> String {
+    const KEYS: [Action; 10] = [
+        Action::ThrustForward,
+        Action::ThrustBack,
+        Action::Boost,
+        Action::LookAtTarget,
+        Action::FaceTarget,
+        Action::ToggleAssist,
+        Action::Slower,
+        Action::Faster,
+        Action::WhatAmISeeing,
+        Action::ToggleAutopilot,
+    ];
+    let key = |action: Action| together(&format!("{}: {}", prompts.button(action), action_words(prompts.language, action)));
+    KEYS.map(key).join("  ·  ")
 }
 
 /// What leads the camera of a replay.

@@ -251,7 +251,7 @@ impl Person {
                 let (nose, thrust) = (Some(way + sweep * REACTION), view.ahead(way) * strength);
                 return Action { nose, sweep, thrust, assist, ..Action::default() };
             }
-            None => (),
+            Some(Advice::Wait) | None => (),
         }
         match guide.brake {
             _ if guide.apart.length() > NEAR => self.pass(view, target),

@@ -41,7 +41,8 @@ pub fn lines(part: &str, wrong: bool) -> Result<String, String> {
                 let path = Path::new(&name);
                 let replay = Replay::load(path).map_err(|error| error.to_string())?;
                 let scene = replay.scene(path, None).map_err(|error| error.to_string())?;
-                fly(&mut replay.app(&scene, &config), &name, f64::INFINITY, wrong, &mut lines);
+                let end = replay.ticks as f64 * config.clock.step;
+                fly(&mut replay.app(&scene, &config), &name, end, wrong, &mut lines);
             }
         }
         "pilots" => {
