@@ -376,7 +376,14 @@ mod tests {
                     &session,
                     &PlayerState::default(),
                     &read,
-                    dials::Going { replayed: false, slowing: 0.5, by_light: true, guidance: None, advice: Some(Advice::Wait), helped: false },
+                    dials::Going {
+                        replayed: false,
+                        slowing: 0.5,
+                        by_light: true,
+                        guidance: None,
+                        advice: Some(Advice::Wait),
+                        helped: false,
+                    },
                 );
                 text_boxes.push(countdown(painter, rect, &scale, &Countdown::at(1.0, 400.0)));
                 assert_eq!(text_boxes.len(), 6);

@@ -74,9 +74,7 @@ fn way(keys: &ButtonInput<KeyCode>, pads: &[&Gamepad]) -> Option<Way> {
         (KeyCode::ArrowRight, GamepadButton::DPadRight, Vec2::X, Way::Right),
     ];
     let pushed = |pad: &&Gamepad, button, towards: Vec2| pad.pressed(button) || pad.left_stick().dot(towards) > PUSHED;
-    let found = ways.iter().find(|(key, button, towards, _)| {
-        keys.pressed(*key) || pads.iter().any(|pad| pushed(pad, *button, *towards))
-    });
+    let found = ways.iter().find(|(key, button, towards, _)| keys.pressed(*key) || pads.iter().any(|pad| pushed(pad, *button, *towards)));
     found.map(|(.., way)| *way)
 }
 

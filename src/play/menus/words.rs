@@ -1,7 +1,7 @@
 //! What the menus say of a flight, in words.
 
-use crate::play::hud::instruments::Scale;
 use super::lists::action_words;
+use crate::play::hud::instruments::Scale;
 use crate::play::input::action::Action;
 use crate::play::input::bindings::Bindings;
 use crate::play::input::button::Device;
