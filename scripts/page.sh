@@ -1,8 +1,12 @@
-# Sourced by ./test-web after prepare.sh: finds or makes a compiler for pages (wasm32-unknown-unknown), and sets `page_env`, with which
-# cargo builds for it.
+# Sourced by ./web and ./test-web after prepare.sh: finds or makes a compiler for pages (wasm32-unknown-unknown), and gives
+#   page_build OPTIONS: builds a library for it, into $page_programs/PROFILE
+#   page_host COMMAND: runs page/host
 page_target=wasm32-unknown-unknown
 page_cache="${XDG_CACHE_HOME:-$HOME/.cache}/lensrunner"
 page_env=(env CARGO_TARGET_DIR="$CARGO_TARGET_DIR-web")
+page_programs="$CARGO_TARGET_DIR-web/$page_target"
+page_build() { "${page_env[@]}" cargo build --locked --target "$page_target" --lib "$@"; }
+page_host() { CARGO_TARGET_DIR="$CARGO_TARGET_DIR-web" cargo run --quiet --release --locked --manifest-path page/host/Cargo.toml -- "$@"; }
 
 # The standard library of the compiler in use.
 has_page_library() { [ -d "$(rustc --print sysroot)/lib/rustlib/$page_target/lib" ]; }

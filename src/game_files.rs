@@ -28,8 +28,15 @@ pub fn embed(files: &'static [Inside]) {
 /// The user's folder that is named, else the user's own; None where there is none. Scores, replays and pictures are kept there too.
 pub fn user_folder() -> Option<PathBuf> {
     let named = std::env::var_os(FOLDER_VARIABLE).filter(|named| !named.is_empty()).map(PathBuf::from);
-    let own = || directories::ProjectDirs::from("", "", "lensrunner").map(|folders| folders.data_dir().to_path_buf());
-    named.or_else(own)
+    named.or_else(|| own_folder(|folders| folders.data_dir()))
+}
+
+/// One of the user's own folders; None where there is none. In a page it has a name and no place ([`user_file`]).
+pub fn own_folder(which: fn(&directories::ProjectDirs) -> &Path) -> Option<PathBuf> {
+    if cfg!(target_family = "wasm") {
+        return Some("lensrunner".into());
+    }
+    directories::ProjectDirs::from("", "", "lensrunner").map(|folders| which(&folders).to_path_buf())
 }
 
 /// The project's folder: the one that the program is started in or one above it, or one that the program lies in.
@@ -71,7 +78,7 @@ impl GameFile {
     /// Whether there is anything of that name; reading says if it is no file.
     pub fn is_there(&self) -> bool {
         match self.place {
-            Place::Disk => self.path.exists(),
+            Place::Disk => user_file::exists(&self.path),
             Place::Inside(_) => true,
             Place::Nowhere(_) => false,
         }

@@ -1,5 +1,8 @@
 //! Files that a person names: read within a limit, written whole or not at all. It imports no floor, and every floor may import it.
 
+#[cfg(target_family = "wasm")]
+mod page;
+
 use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
@@ -65,6 +68,14 @@ pub fn open(path: &Path, most: u64) -> Result<(File, u64), FileFault> {
 
 /// All bytes of a regular file, at most `most`.
 pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, FileFault> {
+    #[cfg(target_family = "wasm")]
+    return page::read(path, most);
+    #[cfg(not(target_family = "wasm"))]
+    read_disk(path, most)
+}
+
+#[cfg(not(target_family = "wasm"))]
+fn read_disk(path: &Path, most: u64) -> Result<Vec<u8>, FileFault> {
     let (file, length) = open(path, most)?;
     let mut bytes = Vec::with_capacity(length as usize);
     // It may grow meanwhile.
@@ -105,6 +116,14 @@ fn kind(found: std::fs::FileType) -> &'static str {
 /// Writes a file so that it is either the old one or the new, whatever happens; its folder is made where there is none. To a device or a
 /// pipe the bytes go at once.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    #[cfg(target_family = "wasm")]
+    return page::write(path, bytes);
+    #[cfg(not(target_family = "wasm"))]
+    write_disk(path, bytes)
+}
+
+#[cfg(not(target_family = "wasm"))]
+fn write_disk(path: &Path, bytes: &[u8]) -> io::Result<()> {
     std::fs::create_dir_all(path.parent().unwrap_or(Path::new("")))?;
     // Where a link leads the file is, not the link.
     let place = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
@@ -116,6 +135,22 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
         // What went wrong first is said.
         _ = std::fs::remove_file(&beside);
     })
+}
+
+/// Whether there is a file of this name.
+pub fn exists(path: &Path) -> bool {
+    #[cfg(target_family = "wasm")]
+    return page::exists(path);
+    #[cfg(not(target_family = "wasm"))]
+    path.exists()
+}
+
+/// Gives a file another name.
+pub fn rename(from: &Path, to: &Path) -> io::Result<()> {
+    #[cfg(target_family = "wasm")]
+    return page::rename(from, to);
+    #[cfg(not(target_family = "wasm"))]
+    std::fs::rename(from, to)
 }
 
 /// Whether the file can be written, asked before the work that it is for: its folder is made where there is none, and a file that is there

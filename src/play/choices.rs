@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use bevy::prelude::{Resource, warn};
 
+use crate::game_files::own_folder;
 use crate::play::files::{set_aside, write_whole};
 use crate::scene::GameConfig;
 use crate::scene::config::{self, Setting, Value, choices_text};
@@ -39,8 +40,7 @@ impl Choices {
     /// Those of the user, and what is to be said of them.
     pub fn load() -> (Choices, Option<String>) {
         let named = std::env::var_os(FOLDER_VARIABLE).map(PathBuf::from);
-        let own = || directories::ProjectDirs::from("", "", "lensrunner").map(|folders| folders.config_dir().to_path_buf());
-        match named.or_else(own) {
+        match named.or_else(|| own_folder(|folders| folders.config_dir())) {
             Some(folder) => Choices::load_from(&folder.join("settings.toml")),
             None => (Choices::default(), Some("There is no folder for settings: they are kept until the game ends.".into())),
         }

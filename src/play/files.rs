@@ -14,6 +14,6 @@ pub fn write_whole(file: &Path, text: &str) -> io::Result<()> {
 /// Renames a damaged file so that the next can be written; returns its new name, or None if it stays where it is.
 pub fn set_aside(file: &Path) -> Option<PathBuf> {
     let stem = file.file_stem()?.to_string_lossy().into_owned();
-    let aside = (1..10_000).map(|n| file.with_file_name(format!("{stem}.damaged-{n}.toml"))).find(|aside| !aside.exists())?;
-    std::fs::rename(file, &aside).ok().map(|()| aside)
+    let aside = (1..10_000).map(|n| file.with_file_name(format!("{stem}.damaged-{n}.toml"))).find(|aside| !user_file::exists(aside))?;
+    user_file::rename(file, &aside).ok().map(|()| aside)
 }

@@ -1,5 +1,5 @@
 // Loads the game with a bar, and says in one sentence what keeps it from beginning.
-import begin, { play } from "./lensrunner_web.js";
+import begin, { play } from "./lensrunner_page.js";
 
 const words = {
   en: {
@@ -52,11 +52,11 @@ async function load() {
   if (!navigator.gpu) throw new Refusal(say.noWebGpu);
   if (!(await navigator.gpu.requestAdapter())) throw new Refusal(say.noAdapter);
   word.textContent = say.loading;
-  const [sizes, answer] = await Promise.all([fetch("sizes.json"), fetch("lensrunner_web_bg.wasm")]).catch(() => {
+  const [sizes, answer] = await Promise.all([fetch("sizes.json"), fetch("lensrunner_page_bg.wasm")]).catch(() => {
     throw new Refusal(say.missing);
   });
   if (!sizes.ok || !answer.ok) throw new Refusal(say.missing);
-  const length = (await sizes.json())["lensrunner_web_bg.wasm"];
+  const length = (await sizes.json())["lensrunner_page_bg.wasm"];
   await begin({ module_or_path: followed(answer, length) });
   word.textContent = say.starting;
   bar.removeAttribute("value");
