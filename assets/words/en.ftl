@@ -140,7 +140,7 @@ hud-near-edge = TOO FAR OUT: TURN BACK
 hud-moving = drift
 hud-thrust = thrust { $push } c
 hud-thrust-short = thrust
-hud-meets = you meet it: fall on
+hud-meets = your fall leads there, without the assist
 hud-meets-by-thrust = thrust leads there: see the mark
 hud-meets-not = no fall leads there yet: keep the orbit
 hud-facing = NOSE TO THRUST
@@ -218,7 +218,7 @@ unit-minutes = { $value } minutes
 ## The coach
 coach-hopeless = No fuel, and your orbit does not meet it any more. { $button }: the same start again
 coach-hole = The hole is near: thrust along your motion, early
-coach-brake = Too fast to stop at it: hold { $button } until CLOSING is 0
+coach-brake = Too fast to stop at it: hold { $button } until the mark “drift” is gone
 coach-drift = You drift past it: tap { $button } until ASSIST: TARGET is at the left, or push the mark “drift” onto the ring “now”
 coach-gate = Gate { $number } missed: its middle was { $nearest } r_s off, its ring is { $radius } wide. Hold { $button }: nose to it
 coach-fuel = Little fuel: fall, and keep it for braking
@@ -227,7 +227,7 @@ feat-catches = Caught at T = { $times }.
 feat-shot = Your last bolt flew { $span } r_s/c.
 feat-shot-round = Your last bolt flew { $span } r_s/c, { $angle }° round the hole.
 lesson-fell = You fell too deep. Below r = 3 only speed along the orbit holds you: thrust along your motion, early.
-lesson-passed = You passed it { $times } times at { $speed } c or more: brake from { $from } r_s on.
+lesson-passed = Passes at { $speed } c or more: { $times }. Brake from { $from } r_s on.
 lesson-dry = Your tanks were empty at T = { $time }: fall more, thrust less.
 lesson-far = You never came nearer than { $distance } r_s: thrust to where it is now, and go down to catch up.
 map-own = your way

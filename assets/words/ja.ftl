@@ -139,7 +139,7 @@ hud-brake-now = 今すぐ減速：{ $button } を押し続ける
 hud-near-edge = 遠すぎます：もどれ
 hud-thrust = 噴射 { $push } c
 hud-thrust-short = 噴射
-hud-meets = このまま落ちれば会えます
+hud-meets = 落ちるだけで会えます（アシストなし）
 hud-meets-by-thrust = 噴射の印の向きで会えます
 hud-meets-not = まだ道がありません：軌道を保つ
 hud-facing = 船首を噴射の印へ
@@ -218,7 +218,7 @@ unit-minutes = { $value } 分
 ## コーチ
 coach-hopeless = 燃料がなく、この軌道ではもう標的に近づけません。{ $button }：同じ始まりでもう一度
 coach-hole = ブラックホールが近い：早めに進む向きへ噴射
-coach-brake = 速すぎて標的で止まれません：「近づく速さ」が 0 になるまで { $button } を押し続ける
+coach-brake = 速すぎて標的で止まれません：「横流れ」の印が消えるまで { $button } を押し続ける
 coach-drift = 標的のそばを通り過ぎます：左に「アシスト：標的」が出るまで { $button } を押すか、「横流れ」の印を「現在」の輪に重ねる
 coach-gate = ゲート { $number } を外しました。中心から { $nearest } r_s のところを通りました(輪の半径は { $radius })。{ $button } を押し続けると、船首がゲートへ向きます。
 coach-fuel = 燃料わずか：落下にまかせ、減速に残す

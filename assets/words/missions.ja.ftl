@@ -14,11 +14,11 @@ mission-01-training-goal-3-hint = マウスも、すべてから手をはなし�
 mission-01-training-goal-4 = ドローンを見る
 mission-01-training-goal-4-hint = [look_at_target] を押し続けるか、船首を青い印へ向けます。その光は、少し前にドローンを出たものです。どれだけ前かは、印に書いてあります。
 mission-01-training-goal-5 = ドローンのそばまで飛んで、止まる
-mission-01-training-goal-5-hint = [face_target] を押し続けると、船首が「噴射」の印へ向きます。印が消えるまで [thrust_forward] も押し続けます。消えたら、落ちるだけで届きます。「今すぐ減速」と出たときと、4 r_s 以内に入ったら、[toggle_assist] を押し続けます。ドローンに対する動きが消えます。
+mission-01-training-goal-5-hint = [face_target] を押し続けると、船首が「噴射」の印へ向きます。「落ちるだけで会えます」と出るまで [thrust_forward] も押し続けます。「今すぐ減速」と出たときと、4 r_s 以内に入ったら、[toggle_assist] を押し続けます。ドローンに対する動きが消えます。
 mission-01-training-goal-6 = ドローンと同じ動きをする
 mission-01-training-goal-6-hint = ドローンに対する動きの矢印が消えるまで、[toggle_assist] を押し続けます。4 r_s より遠いときは、「現在」の輪のほうへ少し押しましょう。
 mission-01-training-goal-7 = ドローンをつかまえる：1.5 r_s 以内にとどまる
-mission-01-training-goal-7-hint = [face_target] を押し、「噴射」の印が消えるまで [thrust_forward] も押し続けます。そのまま待ちます。「今すぐ減速」と出たときと、1.5 r_s 以内に入ったら、[toggle_assist] を押し続けます。[slower] で、すべてがゆっくりになります。
+mission-01-training-goal-7-hint = [face_target] を押し、「落ちるだけで会えます」と出るまで [thrust_forward] も押し続けます。そのまま待ちます。「今すぐ減速」と出たときと、1.5 r_s 以内に入ったら、[toggle_assist] を押し続けます。[slower] で、すべてがゆっくりになります。
 
 mission-02-first-pursuit-title = 最初の追跡
 mission-02-first-pursuit-idea = 低い軌道ほど速く回ります。追いつきたければ、下りましょう。
@@ -26,7 +26,7 @@ mission-02-first-pursuit-brief =
     燃料が残り少ない貨物船が、遠くの軌道をあなたから逃げています。画面の中央の輪が閉じるまで、そのそばにいてください。
     ねらうのは、見えている姿ではなく「現在」の輪です。見えているのは、前にいた場所です。
 mission-02-first-pursuit-goal-1 = 貨物船をつかまえる：そばにとどまる
-mission-02-first-pursuit-goal-1-hint = [face_target] を押し、「噴射」の印が消えるまで [thrust_forward] も押し続けます。「今すぐ減速」と出たときと、そばでは、[toggle_assist] を押し続けます。小さな輪は、最も近づく場所です。
+mission-02-first-pursuit-goal-1-hint = [face_target] を押し、「落ちるだけで会えます」と出るまで [thrust_forward] も押し続けます。「今すぐ減速」と出たときと、そばでは、[toggle_assist] を押し続けます。小さな輪は、最も近づく場所です。
 
 mission-03-through-the-disk-title = 円盤をぬけて
 mission-03-through-the-disk-idea = 光はブラックホールの上を曲がって届きます。だから、円盤の向こう側が上に見えます。

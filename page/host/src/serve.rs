@@ -17,7 +17,8 @@ pub fn serve(folder: &Path, port: u16) -> Result<(), String> {
     let runtime = tokio::runtime::Runtime::new().map_err(|error| error.to_string())?;
     runtime.block_on(async {
         let address = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
-        let listener = tokio::net::TcpListener::bind(address).await.map_err(|error| format!("port {port}: {error}; --port names another"))?;
+        let listener =
+            tokio::net::TcpListener::bind(address).await.map_err(|error| format!("port {port}: {error}; --port names another"))?;
         let address = listener.local_addr().map_err(|error| error.to_string())?;
         println!("http://{address}/");
         axum::serve(listener, router).await.map_err(|error| error.to_string())

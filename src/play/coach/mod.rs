@@ -75,8 +75,9 @@ struct Coach {
     given: [u32; Hint::ALL.len()],
     /// Which were given in this flight.
     now: [bool; Hint::ALL.len()],
-    /// Until when the last hint is shown, in seconds of wall time.
+    /// Until when the last hint is shown, in seconds of wall time, and which it is.
     until: f64,
+    last: Option<Hint>,
     /// T of the flight in the frame before, in r_s/c.
     before: f64,
     /// T of the next look at whether it can be won.
@@ -137,8 +138,13 @@ fn give_hints(
     let session = &now.session;
     let flies = *screen.get() == Screen::Playing && !player.autopilot && playback.is_none() && player.touched;
     let seconds = real.elapsed_secs_f64();
-    if *screen.get() != Screen::Playing && notice.until == coach.until {
+    if *screen.get() != Screen::Playing && notice.until == coach.until && notice.until > seconds {
         notice.until = 0.0;
+        // Who had no time to read it is given it again.
+        if let Some(hint) = coach.last.take() {
+            coach.now[hint as usize] = false;
+            coach.given[hint as usize] -= 1;
+        }
     }
     if !flies || !session.config.interface.coach || notice.until > seconds {
         return;
@@ -153,7 +159,7 @@ fn give_hints(
     let language = session.language();
     let action = if hint == Hint::Hopeless { Action::Restart } else { Action::ToggleAssist };
     let button = words::buttons::of(language, &bindings, *device, action);
-    coach.until = seconds + SHOWN;
+    (coach.until, coach.last) = (seconds + SHOWN, Some(hint));
     *notice = Notice { text: language.fill(hint.key(), &[("button", button.as_str())]), until: coach.until, share: None };
 }
 
@@ -171,7 +177,7 @@ fn is_due(hint: Hint, panel: &Panel, mode: AssistMode, hopeless: bool, inside: b
                 let misses = panel.pass.is_none_or(|near| near.distance > reach);
                 misses && guide.brake != Brake::Now && guide.sideways() > DRIFT.0 && guide.apart.length() < DRIFT.1 * reach
             };
-            !falls_in && mode != AssistMode::Target && panel.thrust.is_none() && target.is_some_and(drifts)
+            !falls_in && mode != AssistMode::Target && panel.advice.is_none() && target.is_some_and(drifts)
         }
         Hint::Fuel => read.fuel.is_some_and(|share| share > 0.0 && share < LOW_FUEL),
     }

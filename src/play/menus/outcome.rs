@@ -29,7 +29,9 @@ pub(super) fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, pane
     if let Some(feat) = review.feat(outcome) {
         line(&feat_words(language, feat), 15.0, TRUE);
     }
-    if let [_, _, ..] = review.catches() {
+    let won = matches!(outcome, Outcome::Caught | Outcome::Done);
+    // One that ends the flight is said above.
+    if review.catches().len() > usize::from(won) {
         let times: Vec<String> = review.catches().iter().map(|time| format!("{time:.1}")).collect();
         line(&language.fill("feat-catches", &[("times", times.join(", ").as_str())]), 15.0, TRUE);
     }
