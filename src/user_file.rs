@@ -4,7 +4,7 @@
 mod page;
 
 use std::fs::File;
-use std::io::{self, Read as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// The most bytes of a text that a person writes: a scene, a mission, `game.toml`.
@@ -76,6 +76,8 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, FileFault> {
 
 #[cfg(not(target_family = "wasm"))]
 fn read_disk(path: &Path, most: u64) -> Result<Vec<u8>, FileFault> {
+    use std::io::Read as _;
+
     let (file, length) = open(path, most)?;
     let mut bytes = Vec::with_capacity(length as usize);
     // It may grow meanwhile.
