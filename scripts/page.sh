@@ -1,11 +1,24 @@
 # Sourced by ./web and ./test-web after prepare.sh: finds or makes a compiler for pages (wasm32-unknown-unknown), and gives
 #   page_build OPTIONS: builds a library for it, into $page_programs/PROFILE
 #   page_host COMMAND: runs page/host
+#   page_make FOLDER: makes the page
 page_target=wasm32-unknown-unknown
 page_cache="${XDG_CACHE_HOME:-$HOME/.cache}/lensrunner"
 page_env=(env CARGO_TARGET_DIR="$CARGO_TARGET_DIR-web")
+# Every browser with WebGPU has these.
+page_flags="-C target-feature=+simd128"
 page_programs="$CARGO_TARGET_DIR-web/$page_target"
-page_build() { "${page_env[@]}" cargo build --locked --target "$page_target" --lib "$@"; }
+page_build() {
+  "${page_env[@]}" CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS="$page_flags" \
+    cargo build --locked --profile page --target "$page_target" --lib "$@"
+}
+# Builds the page into a folder, and says how large it is.
+page_make() {
+  page_build --package lensrunner_page --package lensrunner_sound
+  page_host page --game "$page_programs/page/lensrunner_page.wasm" --sound "$page_programs/page/lensrunner_sound.wasm" \
+    --table tables/default.lut --icon assets/package/icon.png --page page/static --prepare page/host/prepare.mjs "$1"
+  du -ch "$1"/*.br | tail -n 1 | cut -f1 | sed "s|$|B compressed: $1|" >&2
+}
 page_host() { CARGO_TARGET_DIR="$CARGO_TARGET_DIR-web" cargo run --quiet --release --locked --manifest-path page/host/Cargo.toml -- "$@"; }
 
 # The standard library of the compiler in use.
@@ -44,5 +57,6 @@ if ! has_page_library; then
     mv "$work/sysroot" "$sysroot"
     rm -rf "$work"
   fi
-  page_env+=(RUSTC=/usr/bin/rustc CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS="--sysroot $sysroot")
+  page_env+=(RUSTC=/usr/bin/rustc)
+  page_flags+=" --sysroot $sysroot"
 fi

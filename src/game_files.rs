@@ -17,12 +17,16 @@ pub const FOLDER_VARIABLE: &str = "LENSRUNNER_DATA";
 /// A file inside the program: its name and its bytes.
 pub type Inside = (&'static str, &'static [u8]);
 
-static INSIDE: OnceLock<&'static [Inside]> = OnceLock::new();
+static INSIDE: OnceLock<Vec<Inside>> = OnceLock::new();
 
 /// Says which files are inside the program, before any is looked for.
-pub fn embed(files: &'static [Inside]) {
+pub fn embed(files: impl IntoIterator<Item = Inside>) {
     // Who calls twice has said it already.
-    _ = INSIDE.set(files);
+    _ = INSIDE.set(files.into_iter().collect());
+}
+
+fn embedded() -> &'static [Inside] {
+    INSIDE.get().map(Vec::as_slice).unwrap_or_default()
 }
 
 /// The user's folder that is named, else the user's own; None where there is none. Scores, replays and pictures are kept there too.
@@ -86,7 +90,7 @@ impl GameFile {
 
     /// The path, if it is not inside the program.
     pub fn on_disk(&self) -> Option<&Path> {
-        Some(self.path.as_path()).filter(|path| matches!(self.place, Place::Disk) && path.exists())
+        Some(self.path.as_path()).filter(|path| matches!(self.place, Place::Disk) && user_file::exists(path))
     }
 
     /// All bytes, at most `most`.
@@ -117,7 +121,7 @@ impl Shelf<'_> {
         let beside = std::env::current_exe().ok().and_then(|program| program.parent().map(Path::to_path_buf));
         let project = project_folder();
         let folders = [user_folder(), beside, project.clone()].into_iter().flatten().collect();
-        Shelf { folders, project, inside: INSIDE.get().copied().unwrap_or_default() }
+        Shelf { folders, project, inside: embedded() }
     }
 
     fn bytes(&self, name: &str) -> Option<&'static [u8]> {
@@ -127,7 +131,7 @@ impl Shelf<'_> {
     fn find(&self, name: &str) -> GameFile {
         let is_plain = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
         let tried: Vec<PathBuf> = self.folders.iter().filter(|_| is_plain).map(|folder| folder.join(name)).collect();
-        if let Some(path) = tried.iter().find(|path| path.exists()) {
+        if let Some(path) = tried.iter().find(|path| user_file::exists(path)) {
             return GameFile::at(path);
         }
         let place = self.bytes(name).map_or(Place::Nowhere(tried), Place::Inside);
@@ -169,7 +173,7 @@ pub fn find(name: &str) -> GameFile {
 
 /// The file inside the program, whatever lies in the folders.
 pub fn inside(name: &str) -> Option<GameFile> {
-    let bytes = INSIDE.get().copied().unwrap_or_default().iter().find(|(known, _)| *known == name)?.1;
+    let bytes = embedded().iter().find(|(known, _)| *known == name)?.1;
     Some(GameFile { path: name.into(), place: Place::Inside(bytes) })
 }
 

@@ -1,6 +1,7 @@
 //! The files inside the program: all that the game reads while it runs (`tests/package.rs` compares them with the folders).
 //!
-//! They are in the command line's program, not in the library: a scene can be edited without compiling the library again.
+//! They are in the command line's program, not in the library: a scene can be edited without compiling the library again. The table is
+//! no part of them: a page loads it packed.
 
 use lensrunner::game_files::Inside;
 
@@ -69,5 +70,4 @@ pub const FILES: &[Inside] = inside![
     "assets/scenes/swarm.toml",
     "assets/sky/milky-way.png",
     "assets/sky/stars.bin",
-    "tables/default.lut",
 ];

@@ -26,6 +26,8 @@ pub mod argument;
 pub mod game_files;
 pub mod judge;
 pub mod lensing;
+#[cfg(all(target_family = "wasm", feature = "game"))]
+pub mod page;
 pub mod picture_file;
 #[cfg(feature = "game")]
 pub mod play;

@@ -26,6 +26,8 @@ use lensrunner::sim::{agent, balance, check};
 use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner::user_file::{Named, brief, write_whole};
 
+/// The committed table, inside the program.
+const TABLE: lensrunner::game_files::Inside = ("tables/default.lut", include_bytes!("../tables/default.lut"));
 /// Width and height of a picture of a scene, in pixels.
 const SIZE: [u32; 2] = [1280, 720];
 
@@ -287,7 +289,7 @@ fn parsed() -> Result<Cli, ExitCode> {
 }
 
 fn main() -> ExitCode {
-    lensrunner::game_files::embed(inside::FILES);
+    lensrunner::game_files::embed(inside::FILES.iter().copied().chain([TABLE]));
     let cli = match parsed() {
         Ok(cli) => cli,
         Err(code) => return code,

@@ -4,20 +4,49 @@
 #[path = "../../src/inside.rs"]
 mod inside;
 
+use lensrunner::lensing::table::packed;
 use lensrunner::play::session::Session;
 use lensrunner::play::window::{Options, run};
+use lensrunner::render::gpu::shaders;
 use lensrunner::scene::Difficulty;
-use wasm_bindgen::JsValue;
+use lensrunner::scene::config::Assignment;
+use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Begins the game on the element `#game`. Fails with a sentence if its own files are not as they were built.
+/// The table's name among the game's files.
+const TABLE: &str = "tables/default.lut";
+
+/// Keys that are the browser's own with others in `game.toml`: Ctrl with W would close the page, and F12 opens the browser's tools.
+const KEYS: [&str; 2] = ["controls.thrust_down=KeyX PadLeftBumper", "controls.screenshot=F4"];
+
+/// Begins the game on the element `#game`, with what [`pack`] and [`written_shaders`] gave. Fails with a sentence if these, or its own files,
+/// are not as they were built.
 #[wasm_bindgen]
-pub fn play() -> Result<(), JsValue> {
-    console_error_panic_hook::set_once();
-    lensrunner::game_files::embed(inside::FILES);
-    let mut session = Session::load(None, None, None).map_err(|error| JsValue::from_str(&error.to_string()))?;
+pub fn play(table: &[u8], shaders: &str) -> Result<(), JsError> {
+    lensrunner::page::say_panics();
+    let table = packed::unpack(table).ok_or_else(|| JsError::new("the table is damaged"))?;
+    let table: &'static [u8] = table.leak();
+    lensrunner::game_files::embed(inside::FILES.iter().copied().chain([(TABLE, table)]));
+    shaders::bring(serde_json::from_str(shaders)?);
+    let mut session = Session::load(None, None, None)?;
     session.difficulty = Difficulty::Easy;
+    for keys in KEYS.iter().filter(|_| session.config_file.is_none()) {
+        keys.parse::<Assignment>().map_err(|error| JsError::new(&error))?.apply(&mut session.config);
+    }
     // It goes on after this: the page calls it for each frame.
     run(session, &Options::default());
     Ok(())
+}
+
+/// The bytes of the table's file, packed. Asked when the page is made.
+#[wasm_bindgen]
+pub fn pack(table: &[u8]) -> Result<Vec<u8>, JsError> {
+    packed::pack(table).ok_or_else(|| JsError::new("it is no table"))
+}
+
+/// The texts of all shaders, as JSON. Asked when the page is made.
+#[wasm_bindgen]
+pub fn written_shaders() -> Result<String, JsError> {
+    lensrunner::page::say_panics();
+    Ok(serde_json::to_string(&shaders::written())?)
 }

@@ -1,70 +1,131 @@
-// Loads the game with a bar, and says in one sentence what keeps it from beginning.
+// Loads the game with a bar, says in one sentence what keeps it from beginning, and does for it what a program in WebAssembly cannot.
 import begin, { play } from "./lensrunner_page.js";
+import { language, say } from "./words.js";
 
-const words = {
-  en: {
-    loading: "Loading the game …",
-    starting: "Starting …",
-    noWebGpu: "This browser has no WebGPU, which the game draws with. Please try a newer Chrome, Edge, Firefox or Safari.",
-    noAdapter: "The browser finds no graphics device that it may use. Please switch graphics acceleration on in its settings.",
-    missing: "A file of the game did not arrive. Please load the page again.",
-    failed: "The game could not begin: ",
-  },
-  ja: {
-    loading: "ゲームを読み込んでいます…",
-    starting: "始めています…",
-    noWebGpu: "このブラウザにはゲームの描画に必要な WebGPU がありません。新しい Chrome、Edge、Firefox、Safari でお試しください。",
-    noAdapter: "ブラウザが使えるグラフィックス装置が見つかりません。設定でグラフィックスの高速化を有効にしてください。",
-    missing: "ゲームのファイルが届きませんでした。ページをもう一度読み込んでください。",
-    failed: "ゲームを始められませんでした：",
-  },
-};
-const language = navigator.language.startsWith("ja") ? "ja" : "en";
-const say = words[language];
 document.documentElement.lang = language;
-
-const loading = document.getElementById("loading");
-const word = document.getElementById("word");
-const bar = document.getElementById("bar");
+const at = (name) => document.getElementById(name);
+at("upright").textContent = say.upright;
 
 class Refusal extends Error {}
 
-function refuse(sentence) {
-  word.textContent = sentence;
-  bar.hidden = true;
-  loading.hidden = false;
+function refuse(sentence, cause) {
+  at("word").textContent = sentence;
+  at("cause").textContent = cause ?? "";
+  at("bar").hidden = true;
+  at("loading").hidden = false;
 }
 
-// The answer's body as it comes, so that the bar can follow.
-function followed(answer, length) {
+const memory = (error) => error instanceof RangeError || /memory/i.test(String(error));
+
+// All files of the game, with one bar for what has come of them.
+function files(sizes) {
+  const whole = Object.values(sizes).reduce((sum, size) => sum + size, 0);
   let come = 0;
-  const follow = new TransformStream({
-    transform(piece, out) {
-      come += piece.length;
-      bar.value = Math.min(come / length, 1);
-      out.enqueue(piece);
-    },
-  });
-  return new Response(answer.body.pipeThrough(follow), { headers: { "content-type": "application/wasm" } });
+  return async (name) => {
+    const answer = await fetch(name).catch(() => undefined);
+    if (!answer?.ok) throw new Refusal(say.missing);
+    const follow = new TransformStream({
+      transform(piece, out) {
+        come += piece.length;
+        at("bar").value = Math.min(come / whole, 1);
+        out.enqueue(piece);
+      },
+    });
+    return new Response(answer.body.pipeThrough(follow), { headers: { "content-type": answer.headers.get("content-type") } });
+  };
 }
 
 async function load() {
   if (!navigator.gpu) throw new Refusal(say.noWebGpu);
-  if (!(await navigator.gpu.requestAdapter())) throw new Refusal(say.noAdapter);
-  word.textContent = say.loading;
-  const [sizes, answer] = await Promise.all([fetch("sizes.json"), fetch("lensrunner_page_bg.wasm")]).catch(() => {
-    throw new Refusal(say.missing);
-  });
-  if (!sizes.ok || !answer.ok) throw new Refusal(say.missing);
-  const length = (await sizes.json())["lensrunner_page_bg.wasm"];
-  await begin({ module_or_path: followed(answer, length) });
-  word.textContent = say.starting;
-  bar.removeAttribute("value");
+  at("word").textContent = say.loading;
+  const [adapter, list] = await Promise.all([navigator.gpu.requestAdapter(), fetch("files.json").catch(() => undefined)]);
+  if (!adapter) throw new Refusal(say.noAdapter);
+  if (!list?.ok) throw new Refusal(say.missing);
+  const { loaded } = await list.json();
+  const file = files(loaded);
+  const arrived = (error) => {
+    throw error instanceof Refusal || memory(error) ? error : new Refusal(say.missing);
+  };
+  const [, table, shaders] = await Promise.all([
+    begin({ module_or_path: file("lensrunner_page_bg.wasm") }),
+    file("table.bin").then((answer) => answer.arrayBuffer()),
+    file("shaders.json").then((answer) => answer.text()),
+  ]).catch(arrived);
+  at("word").textContent = say.starting;
+  at("bar").removeAttribute("value");
   // The words are painted before the game takes the page's thread.
   await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
-  play();
-  loading.hidden = true;
-  document.getElementById("game").focus();
+  play(new Uint8Array(table), shaders);
 }
 
-load().catch((error) => refuse(error instanceof Refusal ? error.message : say.failed + error));
+// The sound's own thread, begun by the player's first gesture, as browsers want it; the last that was to be heard is told it then.
+const sound = { last: undefined, port: undefined, context: undefined };
+
+async function beginSound() {
+  if (sound.context) return;
+  sound.context = new AudioContext({ latencyHint: "interactive" });
+  const [program] = await Promise.all([
+    fetch("lensrunner_sound_bg.wasm").then((answer) => answer.arrayBuffer()),
+    sound.context.audioWorklet.addModule("sound.js"),
+  ]);
+  const node = new AudioWorkletNode(sound.context, "sound", {
+    numberOfInputs: 0,
+    outputChannelCount: [2],
+    processorOptions: { program },
+  });
+  node.connect(sound.context.destination);
+  sound.port = node.port;
+  sound.node = node;
+  if (sound.last) sound.port.postMessage(sound.last);
+  if (document.hidden) sound.context.suspend();
+}
+
+// Without sound the game goes on in silence.
+const gesture = () => beginSound().catch((error) => console.warn(`There is no sound: ${error}`));
+for (const kind of ["pointerup", "keydown"]) window.addEventListener(kind, gesture, { once: true, capture: true });
+document.addEventListener("visibilitychange", () => (document.hidden ? sound.context?.suspend() : sound.context?.resume()));
+
+// Keys are the game's, but for the browser's own: those with Ctrl, Alt or Meta, and F5 and F12, which the game does not hear.
+const browsers = ({ code, ctrlKey, altKey, metaKey }) => ctrlKey || altKey || metaKey || code === "F5" || code === "F12";
+const game = at("game");
+for (const kind of ["keydown", "keyup"]) {
+  window.addEventListener(kind, (event) => {
+    if (event.target !== game) return;
+    if (!browsers(event)) event.preventDefault();
+    else if (kind === "keydown" && !/^(Control|Alt|Meta)/.test(event.key)) event.stopImmediatePropagation();
+  }, { capture: true });
+}
+for (const kind of ["contextmenu", "wheel"]) game.addEventListener(kind, (event) => event.preventDefault(), { passive: false });
+
+// What the game asks the page for (`src/page.rs`).
+globalThis.lensrunner = {
+  sound(numbers) {
+    sound.last = Float64Array.from(numbers);
+    sound.port?.postMessage(sound.last);
+  },
+  download(name, bytes) {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(new Blob([bytes]));
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+  },
+  begun() {
+    at("loading").hidden = true;
+    game.focus();
+    // Kept for the next time only now: it loads the same files.
+    navigator.serviceWorker?.register("keep.js").catch((error) => console.warn(`The page is not kept: ${error}`));
+  },
+  screen(name, won) {
+    Object.assign(document.body.dataset, { screen: name, won });
+  },
+  ended(cause) {
+    refuse(say.failed, cause);
+  },
+};
+globalThis.lensrunnerSound = sound;
+
+load().catch((error) => {
+  if (error instanceof Refusal) refuse(error.message);
+  else refuse(memory(error) ? say.memory : say.failed, String(error));
+});

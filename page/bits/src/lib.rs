@@ -32,7 +32,7 @@ pub fn parts() -> Vec<String> {
 /// The lines of a part. `wrong`: after the first hash a ship is off by the last bit of one number, as by a sine of another library.
 #[cfg_attr(target_family = "wasm", wasm_bindgen::prelude::wasm_bindgen)]
 pub fn lines(part: &str, wrong: bool) -> Result<String, String> {
-    lensrunner::game_files::embed(inside::FILES);
+    lensrunner::game_files::embed(inside::FILES.iter().copied());
     let mut lines = String::new();
     let config = GameConfig::default();
     match part {

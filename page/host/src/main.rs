@@ -26,10 +26,8 @@ enum Command {
     },
     /// Makes a folder of static files of the page.
     Page {
-        /// The program.
-        program: PathBuf,
-        /// The files that are taken as they are.
-        page: PathBuf,
+        #[command(flatten)]
+        parts: make::Parts,
         /// Where all are written; what was there is replaced.
         folder: PathBuf,
     },
@@ -46,7 +44,7 @@ enum Command {
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Node { program, folder } => make::join(&program, make::For::Node, &folder),
-        Command::Page { program, page, folder } => make::page(&program, &page, &folder),
+        Command::Page { parts, folder } => make::page(&parts, &folder),
         Command::Serve { folder, port } => serve::serve(&folder, port),
     };
     match done {

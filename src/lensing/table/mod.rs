@@ -5,6 +5,7 @@
 
 pub mod bake;
 pub mod grid;
+pub mod packed;
 pub mod slice;
 pub mod spline;
 

@@ -12,6 +12,7 @@ pub mod notice;
 pub mod paint;
 pub mod palette;
 pub mod panel;
+mod touch;
 
 use std::sync::LazyLock;
 
@@ -34,6 +35,7 @@ use crate::play::hud::panel::{Panel, Said};
 use crate::play::input::action::Action;
 use crate::play::input::bindings::Bindings;
 use crate::play::input::button::Device;
+use crate::play::input::touch::TouchControls;
 use crate::play::menus::screens::Screen;
 use crate::play::pace::Slowing;
 use crate::play::picture::stage_loading::CurrentStage;
@@ -77,7 +79,7 @@ type Buttons<'w> = (Res<'w, Bindings>, Res<'w, Device>);
 type Shown<'w> = (Res<'w, Notice>, Res<'w, Time<Real>>, Option<Res<'w, CurrentStage>>, Res<'w, Slowing>);
 
 /// What the HUD keeps from frame to frame.
-type Kept<'w, 's> = (Local<'s, goals::Slow>, ResMut<'w, Dials>, Local<'s, Preloaded>, Local<'s, Said>);
+type Kept<'w, 's> = (Local<'s, goals::Slow>, ResMut<'w, Dials>, Local<'s, Preloaded>, Local<'s, Said>, ResMut<'w, TouchControls>);
 
 /// Draws the HUD.
 fn draw(
@@ -87,7 +89,7 @@ fn draw(
     (panel, commands, (bindings, device)): (Res<Panel>, Option<Res<PlayerCommands>>, Buttons),
     (notice, real, current, slowing): Shown,
     (mission, progress, playback): Flown,
-    (mut slow, mut painted, mut preloaded, mut numbers): Kept,
+    (mut slow, mut painted, mut preloaded, mut numbers, mut fingers): Kept,
 ) -> Result {
     let context = contexts.ctx_mut()?;
     let painter = context.layer_painter(egui::LayerId::background());
@@ -182,6 +184,13 @@ fn draw(
     let warned = Warned { avoiding: avoiding.0, brake: panel.says_brake(player.autopilot, avoiding.0), edge, radius: read.radius };
     let button = words::buttons::of(language, &bindings, *device, Action::ToggleAssist);
     taken.panels.extend(warnings(&painter, rect, &warned, &button, language));
+    if *device == Device::Touch {
+        let size = [f64::from(rect.width()), f64::from(rect.height())];
+        let seen = panel.images[0].map(|image| markers::marker_position(image.direction, panel.field_of_view, size, 0.0));
+        fingers.target =
+            seen.map(|(markers::MarkerPosition::On(at) | markers::MarkerPosition::Edge(at, _))| Vec2::new(at[0] as f32, at[1] as f32));
+        touch::paint(&painter, &fingers, language);
+    }
     markers::paint(&painter, rect, (&panel, numbers), taken, language);
     Ok(())
 }

@@ -26,6 +26,8 @@ pub enum Device {
     Keyboard,
     /// The gamepad.
     Pad,
+    /// Fingers on the screen.
+    Touch,
 }
 
 /// The gamepad's buttons, in the order of [`PAD`].

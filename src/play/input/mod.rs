@@ -1,4 +1,4 @@
-//! From keys, mouse and gamepad to the stick: bindings by name from the configuration, and what they mean.
+//! From keys, mouse, gamepad and fingers to the stick: bindings by name from the configuration, and what they mean.
 
 pub mod action;
 pub mod bindings;
@@ -7,11 +7,13 @@ pub mod gaze;
 pub mod lead;
 pub mod mouse;
 pub mod response;
+pub mod touch;
 
 use bevy::ecs::system::SystemParam;
 use bevy::input::InputSystems;
 use bevy::input::gamepad::{Gamepad, GamepadAxis, GamepadButton};
 use bevy::input::mouse::AccumulatedMouseMotion;
+use bevy::input::touch::TouchInput;
 use bevy::prelude::*;
 use glam::{DVec2, DVec3};
 
@@ -20,6 +22,7 @@ use crate::play::input::bindings::Bindings;
 use crate::play::input::button::{Button, Device, STICK_WAYS};
 use crate::play::input::mouse::MouseTurn;
 use crate::play::input::response::Response;
+use crate::play::input::touch::{TouchControls, read_touches};
 use crate::sim::assist::Stick;
 
 /// The share of full thrust that the keys give without boost.
@@ -37,7 +40,9 @@ impl Plugin for ControlsPlugin {
             .init_resource::<Device>()
             .init_resource::<MouseTurn>()
             .init_resource::<AccumulatedMouseMotion>()
-            .add_systems(PreUpdate, ((note_sticks, note_taps, take_taps).chain(), note_device).after(InputSystems));
+            .init_resource::<TouchControls>()
+            .add_message::<TouchInput>()
+            .add_systems(PreUpdate, ((read_touches, note_sticks, note_taps, take_taps).chain(), note_device).after(InputSystems));
     }
 }
 
@@ -113,6 +118,7 @@ pub struct PlayerInput<'w, 's> {
     mouse: Res<'w, ButtonInput<MouseButton>>,
     pads: Query<'w, 's, &'static Gamepad>,
     sticks: Res<'w, ButtonInput<StickWay>>,
+    touch: Res<'w, TouchControls>,
 }
 
 impl PlayerInput<'_, '_> {
@@ -121,7 +127,7 @@ impl PlayerInput<'_, '_> {
         if self.bindings.is_tapped(action) {
             return self.taps.0[action as usize];
         }
-        self.bindings.buttons(action).iter().any(|button| self.is_down(*button))
+        self.touch.holds(action) || self.bindings.buttons(action).iter().any(|button| self.is_down(*button))
     }
 
     fn is_down(&self, button: Button) -> bool {
@@ -135,12 +141,13 @@ impl PlayerInput<'_, '_> {
 
     /// Whether it went down in this frame. A short press may begin and end within one, which leaves nothing that is held.
     pub fn pushed(&self, action: Action) -> bool {
-        self.bindings.buttons(action).iter().any(|button| match *button {
+        let on_device = self.bindings.buttons(action).iter().any(|button| match *button {
             Button::Key(key) => self.keys.just_pressed(key),
             Button::Mouse(button) => self.mouse.just_pressed(button),
             Button::Pad(button) => self.pads.iter().any(|pad| pad.just_pressed(button)),
             Button::Stick(axis, sign) => self.sticks.just_pressed((axis, sign > 0.0)),
-        })
+        });
+        on_device || self.touch.pushed(action)
     }
 
     /// Whether a key, or a button that is pressed or not, asks for `action`.
@@ -148,7 +155,7 @@ impl PlayerInput<'_, '_> {
         if self.bindings.is_tapped(action) {
             return self.taps.0[action as usize];
         }
-        self.bindings.buttons(action).iter().any(|button| !is_gradual(*button) && self.is_down(*button))
+        self.touch.holds(action) || self.bindings.buttons(action).iter().any(|button| !is_gradual(*button) && self.is_down(*button))
     }
 
     /// How far sticks and triggers ask for `action`, 0 to 1, and whether a stick does.
@@ -169,7 +176,7 @@ impl PlayerInput<'_, '_> {
             _ => 0.0,
         };
         let buttons = self.bindings.buttons(action);
-        self.pads.iter().flat_map(|pad| buttons.iter().map(move |button| asks(button, pad))).fold(0.0, f64::max)
+        self.pads.iter().flat_map(|pad| buttons.iter().map(move |button| asks(button, pad))).fold(self.touch.partly(action), f64::max)
     }
 
     /// The stick: keys thrust at [`CRUISE`] or, with boost, fully; a stick of the gamepad as far as it is pushed.

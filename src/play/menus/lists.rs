@@ -25,14 +25,19 @@ pub fn entries(world: &World) -> Vec<Entry> {
     if let Some(page) = menu.page() {
         return of_page(page, session, menu);
     }
-    match world.resource::<State<Screen>>().get() {
+    let mut entries = match world.resource::<State<Screen>>().get() {
         Screen::Playing => Vec::new(),
         Screen::Warning => warning(session),
         Screen::Title => title(world, session),
         Screen::Paused => paused(language),
         Screen::Result => result(world, session),
         Screen::Photo => photo::entries(world),
+    };
+    // A page is closed by the browser.
+    if cfg!(target_family = "wasm") {
+        entries.retain(|entry| !matches!(entry.does, Does::Ask(MenuAction::Quit)));
     }
+    entries
 }
 
 fn ask(language: Language, id: &'static str, key: &str, action: MenuAction) -> Entry {

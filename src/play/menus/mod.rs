@@ -213,7 +213,11 @@ fn paragraph(ui: &mut Ui, words: &str) {
 /// How a menu is used with the device in use; `unbinds` where buttons are bound.
 fn footer(ui: &mut Ui, prompts: Prompts, unbinds: bool) {
     let on_pad = prompts.device == Device::Pad;
-    let mut words = prompts.language.say(if on_pad { "menu-help-pad" } else { "menu-help-keys" });
+    let mut words = prompts.language.say(match prompts.device {
+        Device::Keyboard => "menu-help-keys",
+        Device::Pad => "menu-help-pad",
+        Device::Touch => "menu-help-touch",
+    });
     if unbinds {
         words.push_str(" · ");
         words.push_str(&prompts.language.say(if on_pad { "menu-unbind-pad" } else { "menu-unbind-keys" }));

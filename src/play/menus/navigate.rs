@@ -294,6 +294,8 @@ fn await_button(world: &mut World) {
             let key = keys.get_just_pressed().next().map(|key| Button::Key(*key));
             key.or_else(|| world.resource::<ButtonInput<MouseButton>>().get_just_pressed().next().map(|button| Button::Mouse(*button)))
         }
+        // What is on the screen stays as it is.
+        Device::Touch => None,
         Device::Pad => {
             let mut pads = world.query::<&Gamepad>();
             pads.iter(world).find_map(pressed_on)

@@ -40,7 +40,8 @@ pub(super) fn row(ui: &mut Ui, menu: &mut Menu, place: usize, moved: bool) {
         None => entry.words.clone(),
     };
     let galley = ui.painter().layout(words, font.clone(), colour, name.max(40.0));
-    let height = ROW.max(galley.size().y + 6.0);
+    // Wide enough for a finger where there is one.
+    let height = ROW.max(ui.spacing().interact_size.y).max(galley.size().y + 6.0);
     let (frame, response) = ui.allocate_exact_size(vec2(width, height), Sense::click_and_drag());
     if has_focus && ui.memory(|memory| memory.data.get_temp::<usize>(shown_focus()) != Some(place)) {
         ui.scroll_to_rect(frame, None);

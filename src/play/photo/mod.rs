@@ -18,6 +18,7 @@ use crate::play::picture::CurrentShot;
 use crate::play::picture::snapshot::snapshot;
 use crate::play::schedule::GameSet;
 use crate::play::session::Session;
+use crate::play::window::record;
 use camera::{CameraMotion, FreeCamera};
 use darkroom::{Darkroom, How};
 pub use state::Photo;
@@ -43,7 +44,15 @@ fn begin(shot: Option<Res<CurrentShot>>, session: Res<Session>, mut actions: Mes
         return;
     };
     let bloom = session.config.render.bloom;
-    commands.insert_resource(Photo { camera: FreeCamera::at(frame.camera), frame, stops: 0.0, bloom, size: 0, panel: true });
+    commands.insert_resource(Photo {
+        camera: FreeCamera::at(frame.camera),
+        frame,
+        stops: 0.0,
+        bloom,
+        size: 0,
+        panel: true,
+        makes_way: false,
+    });
 }
 
 fn end(mut commands: Commands) {
@@ -81,6 +90,9 @@ pub fn entries(world: &World) -> Vec<Entry> {
     entries.push(press("develop", "photo-develop", PhotoKnob::Develop));
     entries.push(press("home", "photo-home", PhotoKnob::Home));
     entries.push(Entry::new("back", language.say("menu-back"), Does::Back));
+    if cfg!(target_family = "wasm") {
+        entries.retain(|entry| !matches!(entry.does, Does::Photo(PhotoKnob::Size | PhotoKnob::Develop)));
+    }
     entries
 }
 
@@ -105,6 +117,13 @@ pub fn turn_to(world: &mut World, knob: PhotoKnob, share: f64) {
 /// A knob is pressed.
 pub fn press(world: &mut World, knob: PhotoKnob) {
     match knob {
+        // A page has no program to draw another size: what is on the screen is saved.
+        PhotoKnob::Save if cfg!(target_family = "wasm") => {
+            if let Some(mut photo) = world.get_resource_mut::<Photo>() {
+                (photo.makes_way, photo.panel) = (true, false);
+            }
+            record::screenshot(world);
+        }
         PhotoKnob::Save | PhotoKnob::Develop => {
             let how = if knob == PhotoKnob::Save { How::Drawn } else { How::Exactly };
             let size = world.get_resource::<Photo>().and_then(Photo::size);

@@ -11,5 +11,6 @@ pub mod parts;
 pub mod plugin;
 pub mod read;
 pub mod record;
+pub mod sent;
 pub mod voices;
 pub mod volumes;

@@ -1,5 +1,7 @@
-//! The mix on the loudspeakers. Where there are none, or the game was built without the feature `sound`, it is silent without a word.
+//! The mix on the loudspeakers. Where there are none, or the game was built without the feature `sound`, it is silent without a word. In a
+//! page the browser's own thread for sound makes it ([`sent`](super::sent)).
 
+#[cfg(all(not(target_family = "wasm"), any(feature = "sound", test)))]
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 
@@ -9,9 +11,20 @@ use crate::play::sound::volumes::Volumes;
 /// What is to be heard, and how loud.
 pub type Wanted = Arc<Mutex<(Heard, Volumes)>>;
 
+/// This is to be heard from now on.
+pub fn hear(wanted: &Wanted, heard: Heard, volumes: Volumes) {
+    #[cfg(target_family = "wasm")]
+    crate::page::sound(&super::sent::numbers(&heard, &volumes));
+    // It is held for the time of a copy, and by nobody who can fail.
+    if let Ok(mut wanted) = wanted.lock() {
+        *wanted = (heard, volumes);
+    }
+}
+
 /// Whether there may be something to play on. On Linux the ALSA library writes complaints to standard error where there is no sound card,
 /// so it is not asked then: there must be a card that plays, or a sound server with the ALSA plugin that leads to it. `root` is / but in
 /// tests, `runtime` the folder of the user's sockets.
+#[cfg(all(not(target_family = "wasm"), any(feature = "sound", test)))]
 fn may_play(root: &Path, runtime: Option<&Path>) -> bool {
     if !cfg!(target_os = "linux") {
         return true;
@@ -33,8 +46,14 @@ fn may_play(root: &Path, runtime: Option<&Path>) -> bool {
 #[cfg(feature = "sound")]
 pub use speakers::open;
 
+/// The page's: it is silent until the player touches something, as browsers want it.
+#[cfg(target_family = "wasm")]
+pub fn open() -> Option<Wanted> {
+    Some(Wanted::default())
+}
+
 /// Silence: the game was built without the feature `sound`.
-#[cfg(not(feature = "sound"))]
+#[cfg(not(any(feature = "sound", target_family = "wasm")))]
 pub fn open() -> Option<Wanted> {
     None
 }

@@ -7,7 +7,7 @@ use crate::play::picture::CurrentShot;
 use crate::play::schedule::GameSet;
 use crate::play::session::Session;
 use crate::play::sound::heard::Heard;
-use crate::play::sound::output::{Wanted, open};
+use crate::play::sound::output::{Wanted, hear, open};
 use crate::play::sound::read::Listener;
 use crate::play::sound::volumes::Volumes;
 use crate::sim::Clock;
@@ -38,11 +38,7 @@ fn tune(session: Res<Session>, mut listener: ResMut<SceneListener>) {
 fn listen(world: &World) {
     let Some(Loudspeakers(Some(wanted))) = world.get_resource::<Loudspeakers>() else { return };
     let volumes = world.get_resource::<Session>().map_or_else(Volumes::default, |session| Volumes::of(&session.config.sound));
-    let heard = now(world);
-    // It is held for the time of a copy, and by nobody who can fail.
-    if let Ok(mut wanted) = wanted.lock() {
-        *wanted = (heard, volumes);
-    }
+    hear(wanted, now(world), volumes);
 }
 
 /// What is heard in this frame: in play the flight, after it what rings on, on the title the music.

@@ -7,6 +7,7 @@ use bevy::prelude::*;
 use bevy::render::render_resource::TextureFormat;
 use bevy::window::{CursorGrabMode, CursorOptions, MonitorSelection, PresentMode, PrimaryWindow, WindowMode};
 use bevy_egui::EguiContexts;
+use bevy_egui::egui::style::Spacing;
 
 use web_time::{Duration, Instant};
 
@@ -15,6 +16,7 @@ use crate::play::hud::notice::Notice;
 use crate::play::hud::palette::Palette;
 use crate::play::loading::Loading;
 
+use crate::play::input::button::Device;
 use crate::play::input::mouse::MouseTurn;
 use crate::play::menus::screens::Screen;
 use crate::play::photo::Photo;
@@ -65,11 +67,21 @@ const INTERFACE: [f32; 2] = [900.0, 620.0];
 /// In a window lower or narrower than this (logical pixels) there is no room for a card.
 const NO_ROOM: f32 = 100.0;
 
+/// What a finger can meet, in logical pixels.
+const FINGER: f32 = 44.0;
+
+/// How many logical pixels a point of the interface has.
+pub(in crate::play) fn points_of(window: &Window, session: &Session) -> f32 {
+    let fit = (window.width() / INTERFACE[0]).min(window.height() / INTERFACE[1]).clamp(0.35, 1.0);
+    fit * session.config.accessibility.text_size as f32
+}
+
 /// Gives the interface its letters, its size and its colours.
 fn fit_interface(
     windows: Query<&Window, With<PrimaryWindow>>,
     session: Res<Session>,
     mut contexts: EguiContexts,
+    device: Res<Device>,
     (mut has_letters, mut had_room): (Local<bool>, Local<bool>),
 ) {
     let Ok(context) = contexts.ctx_mut() else { return };
@@ -79,8 +91,12 @@ fn fit_interface(
     let settings = &session.config.accessibility;
     Palette::of(settings).put(context);
     let Some(window) = windows.iter().next() else { return };
-    let fit = (window.width() / INTERFACE[0]).min(window.height() / INTERFACE[1]).clamp(0.35, 1.0);
-    context.set_zoom_factor(fit * settings.text_size as f32);
+    let points = points_of(window, &session);
+    context.set_zoom_factor(points);
+    let target = if *device == Device::Touch { FINGER / points } else { Spacing::default().interact_size.y };
+    if context.global_style().spacing.interact_size.y != target {
+        context.all_styles_mut(|style| style.spacing.interact_size.y = target);
+    }
     let has_room = window.width().min(window.height()) >= NO_ROOM;
     if has_room && !std::mem::replace(&mut *had_room, has_room) {
         // Cards remember their size, and would stay as small as they were.
@@ -173,12 +189,12 @@ fn grab_cursor(
     screen: Res<State<Screen>>,
     player: Res<PlayerState>,
     (motion, photo): (Res<AccumulatedMouseMotion>, Option<Res<Photo>>),
-    session: Res<Session>,
+    (session, device): (Res<Session>, Res<Device>),
     mut turn: ResMut<MouseTurn>,
     mut cursors: Query<&mut CursorOptions, With<PrimaryWindow>>,
 ) {
     let flown = *screen.get() == Screen::Playing && !player.overlay && !player.autopilot;
-    let grabbed = flown || photo.is_some_and(|photo| !photo.panel);
+    let grabbed = (flown || photo.is_some_and(|photo| !photo.panel)) && *device != Device::Touch;
     for mut cursor in &mut cursors {
         if cursor.visible == grabbed {
             cursor.visible = !grabbed;

@@ -20,7 +20,10 @@ struct Said;
 fn end(error: &RenderError, main: &mut World, _: &mut World) -> RenderErrorPolicy {
     if !main.contains_resource::<Said>() {
         main.insert_resource(Said);
-        error!("{}", sentence(error));
+        let sentence = sentence(error);
+        error!("{sentence}");
+        #[cfg(target_family = "wasm")]
+        crate::page::ended(&sentence);
         main.write_message(AppExit::error());
     }
     RenderErrorPolicy::StopRendering

@@ -3,6 +3,8 @@
 pub mod focus;
 pub mod interface;
 pub mod lost;
+#[cfg(target_family = "wasm")]
+mod page;
 pub mod pictures;
 pub mod record;
 pub mod timings;
@@ -144,6 +146,8 @@ pub fn app(mut session: Session, options: &Options, surface: OutputSurface, choi
         .insert_resource(choices)
         .insert_resource(FileConfig(file_config))
         .insert_resource(session);
+    #[cfg(target_family = "wasm")]
+    app.add_plugins(page::PagePlugin);
     if let Some((file, started)) = &options.timings {
         let waits = matches!(surface, OutputSurface::Picture(_));
         app.add_plugins(timings::TimingsPlugin { file: file.clone(), started: *started, waits });
@@ -175,6 +179,8 @@ fn window(session: &Session, options: &Options, surface: &OutputSurface) -> Wind
         // Of a page: the element that is drawn on.
         canvas: Some("#game".into()),
         fit_canvas_to_parent: true,
+        // The page does it, and leaves the browser its own keys.
+        prevent_default_event_handling: false,
         ..default()
     }
 }

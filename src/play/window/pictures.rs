@@ -1,8 +1,13 @@
-//! Where the player's pictures go, and under which names. No picture is ever written over.
+//! Where the player's pictures go, and under which names. No picture is ever written over. In a page the browser puts them where it puts
+//! what is loaded down.
 
+#[cfg(not(target_family = "wasm"))]
 use std::fs::{File, create_dir_all, remove_file, rename, write};
+#[cfg(not(target_family = "wasm"))]
 use std::io::{Error, ErrorKind};
-use std::path::{Path, PathBuf};
+#[cfg(not(target_family = "wasm"))]
+use std::path::Path;
+use std::path::PathBuf;
 use web_time::{SystemTime, UNIX_EPOCH};
 
 use crate::game_files::user_folder;
@@ -43,6 +48,19 @@ fn civil(days: u64) -> [u64; 3] {
 
 /// Writes a file into the first of `folders` that takes it, under a name that nothing has yet; gives its path.
 pub fn save_new(folders: &[PathBuf], stem: &str, extension: &str, bytes: &[u8]) -> std::io::Result<PathBuf> {
+    #[cfg(target_family = "wasm")]
+    return {
+        _ = folders;
+        let name = format!("{stem}.{extension}");
+        crate::page::download(&name, bytes);
+        Ok(name.into())
+    };
+    #[cfg(not(target_family = "wasm"))]
+    save_file(folders, stem, extension, bytes)
+}
+
+#[cfg(not(target_family = "wasm"))]
+fn save_file(folders: &[PathBuf], stem: &str, extension: &str, bytes: &[u8]) -> std::io::Result<PathBuf> {
     let mut fault = Error::new(ErrorKind::NotFound, "there is no folder for pictures");
     for folder in folders {
         match save_in(folder, stem, extension, bytes) {
@@ -53,6 +71,7 @@ pub fn save_new(folders: &[PathBuf], stem: &str, extension: &str, bytes: &[u8]) 
     Err(fault)
 }
 
+#[cfg(not(target_family = "wasm"))]
 fn save_in(folder: &Path, stem: &str, extension: &str, bytes: &[u8]) -> std::io::Result<PathBuf> {
     create_dir_all(folder)?;
     // The player may not know in which folder the game was started.

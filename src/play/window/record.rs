@@ -9,6 +9,7 @@ use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 
 use crate::picture_file::png;
 use crate::play::hud::notice::Notice;
+use crate::play::photo::Photo;
 use crate::play::picture::snapshot::snapshot;
 use crate::play::picture::stage_loading::CurrentStage;
 use crate::play::window::pictures::{folders, save_new, stem};
@@ -59,9 +60,13 @@ impl Plugin for RecordPlugin {
 const SHOWN: f64 = 4.0;
 
 /// Says, on the screen and in the log, where a picture is or why there is none.
-fn notify(news: Res<News>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
+fn notify(news: Res<News>, real: Res<Time<Real>>, mut notice: ResMut<Notice>, mut photo: Option<ResMut<Photo>>) {
     let Ok(receiver) = news.receiver.lock() else { return };
     for result in receiver.try_iter() {
+        // A panel that made way for the picture is back.
+        if let Some(photo) = photo.as_mut().filter(|photo| photo.makes_way) {
+            (photo.makes_way, photo.panel) = (false, true);
+        }
         let text = match &result {
             Ok((path, None)) => format!("picture written to {}", path.display()),
             Ok((path, Some(why))) => format!("picture written to {}, without its moment: {why}", path.display()),
@@ -127,12 +132,16 @@ fn take_wanted(world: &mut World) {
     });
 }
 
-/// Takes a picture of the window and its moment; `done` gets them in a thread of its own.
+/// Takes a picture of the window and its moment; `done` gets them, in a thread of its own where there are threads.
 fn take(world: &mut World, done: impl Fn(Image, Result<Snapshot, &'static str>) + Clone + Send + Sync + 'static) {
     let moment = snapshot(world);
     world.spawn(Screenshot::primary_window()).observe(move |captured: On<ScreenshotCaptured>| {
         let (image, moment, done) = (captured.image.clone(), moment.clone(), done.clone());
-        std::thread::spawn(move || done(image, moment));
+        if cfg!(target_family = "wasm") {
+            done(image, moment);
+        } else {
+            std::thread::spawn(move || done(image, moment));
+        }
     });
 }
 

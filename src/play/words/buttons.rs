@@ -4,6 +4,7 @@ use super::Language;
 use crate::play::input::action::Action;
 use crate::play::input::bindings::Bindings;
 use crate::play::input::button::{Button, Device};
+use crate::play::input::touch::word_of;
 
 /// What a button is called; `—` for none.
 pub fn written(language: Language, button: Option<Button>) -> String {
@@ -20,6 +21,9 @@ pub fn written(language: Language, button: Option<Button>) -> String {
 
 /// The button of an action on the device in use, as it is written there.
 pub fn of(language: Language, bindings: &Bindings, device: Device, action: Action) -> String {
+    if device == Device::Touch {
+        return word_of(action).map_or_else(|| "—".into(), |word| language.say(word));
+    }
     written(language, bindings.shown(action, device))
 }
 

@@ -123,7 +123,7 @@ impl Aurora {
     /// Projects by another method from now on.
     pub fn set_method(&mut self, device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, method: Method) {
         let groups = [Some(frame_layout), Some(&self.layouts.walk)];
-        self.pipelines.project = compute_of(device, "aurora project", Pass::AuroraProject.module_by(method, false), "main", &groups);
+        self.pipelines.project = compute_of(device, "aurora project", Pass::AuroraProject.shader_by(method, false), "main", &groups);
     }
 
     /// Uploads what the frame needs; None draws nothing.

@@ -45,7 +45,7 @@ impl GeometryPipelines {
         let device = &inputs.device;
         let groups = [Some(&inputs.frame), Some(&inputs.geometry)];
         let with_arguments = [Some(&inputs.frame), Some(&inputs.geometry), Some(&inputs.arguments)];
-        let module = |label, pass: Pass| module_of(device, label, pass.module_along(inputs.worldlines, method, inside));
+        let module = |label, pass: Pass| module_of(device, label, pass.shader_along(inputs.worldlines, method, inside));
         let stage = |label, pass| compute_in(device, label, &module(label, pass), "main", &groups);
         let arguments = || {
             let arguments = module("arguments", Pass::Arguments);

@@ -34,7 +34,7 @@ struct PlacePipelines {
 impl PlacePipelines {
     fn new(inputs: &PipelineInputs, (method, inside): Side) -> PlacePipelines {
         let stage = |entry| {
-            let module = Pass::Place.module_along(inputs.worldlines, method, inside);
+            let module = Pass::Place.shader_along(inputs.worldlines, method, inside);
             compute_of(&inputs.device, "place", module, entry, &[Some(&inputs.frame), Some(&inputs.geometry)])
         };
         PlacePipelines { main: stage("main"), finish: stage("finish") }

@@ -8,6 +8,8 @@ use wgpu::{
     TextureSampleType, TextureViewDimension,
 };
 
+use crate::render::gpu::shaders::{Pass, Shader};
+
 thread_local! {
     static MADE: Cell<u64> = const { Cell::new(0) };
 }
@@ -309,18 +311,18 @@ fn table_texture(
 pub fn compute(
     device: &wgpu::Device,
     label: &str,
-    pass: crate::render::gpu::shaders::Pass,
+    pass: Pass,
     entry: &str,
     layouts: &[Option<&wgpu::BindGroupLayout>],
 ) -> wgpu::ComputePipeline {
-    compute_of(device, label, pass.module(), entry, layouts)
+    compute_of(device, label, pass.shader(), entry, layouts)
 }
 
 /// A compute pipeline of one entry point of `shader`.
 pub fn compute_of(
     device: &wgpu::Device,
     label: &str,
-    shader: wgpu::naga::Module,
+    shader: impl Into<Shader>,
     entry: &str,
     layouts: &[Option<&wgpu::BindGroupLayout>],
 ) -> wgpu::ComputePipeline {
@@ -347,13 +349,16 @@ pub fn compute_in(
 }
 
 /// The shader module of a pass.
-pub fn module(device: &wgpu::Device, label: &str, pass: crate::render::gpu::shaders::Pass) -> wgpu::ShaderModule {
-    module_of(device, label, pass.module())
+pub fn module(device: &wgpu::Device, label: &str, pass: Pass) -> wgpu::ShaderModule {
+    module_of(device, label, pass.shader())
 }
 
-/// The shader module of a composed shader.
-pub fn module_of(device: &wgpu::Device, label: &str, shader: wgpu::naga::Module) -> wgpu::ShaderModule {
-    let source = wgpu::ShaderSource::Naga(Cow::Owned(shader));
+/// The shader module of a shader.
+pub fn module_of(device: &wgpu::Device, label: &str, shader: impl Into<Shader>) -> wgpu::ShaderModule {
+    let source = match shader.into() {
+        Shader::Composed(module) => wgpu::ShaderSource::Naga(Cow::Owned(module)),
+        Shader::Written(text) => wgpu::ShaderSource::Wgsl(text.into()),
+    };
     counted(device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source }))
 }
 

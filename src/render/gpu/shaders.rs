@@ -1,10 +1,14 @@
 //! The shader of each pass: its own file of `shaders/`, with the modules that it imports (`library.rs`).
+//!
+//! Composing takes seconds in a page. There it is done when the page is made ([`written`]), and the texts are [brought](bring).
 
-use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use std::sync::{LazyLock, Mutex, PoisonError};
+use std::collections::{BTreeMap, HashMap};
+use std::sync::{LazyLock, Mutex, OnceLock, PoisonError};
 
 use wgpu::naga::Module;
+use wgpu::naga::back::wgsl;
+use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 
 use crate::lensing::methods::Method;
 use crate::render::gpu::library::{File, Library, Values, Worldlines, file};
@@ -12,6 +16,58 @@ use crate::render::gpu::library::{File, Library, Values, Worldlines, file};
 /// The libraries that passes have been composed from. One for each choice of worldlines and method, so that its modules are worked out
 /// once.
 static LIBRARIES: LazyLock<Mutex<HashMap<(Worldlines, &str), Library>>> = LazyLock::new(Default::default);
+
+/// Shaders that were composed before, by what they were composed of.
+static BROUGHT: OnceLock<BTreeMap<String, String>> = OnceLock::new();
+
+/// A shader as a device takes it.
+#[derive(Clone, Debug)]
+pub enum Shader {
+    /// Composed here.
+    Composed(Module),
+    /// The text of one that was composed before.
+    Written(&'static str),
+}
+
+impl From<Module> for Shader {
+    fn from(module: Module) -> Shader {
+        Shader::Composed(module)
+    }
+}
+
+/// Takes shaders that [`written`] gave, before any is asked for; others are composed.
+pub fn bring(texts: BTreeMap<String, String>) {
+    // Who calls twice has brought them already.
+    _ = BROUGHT.set(texts);
+}
+
+/// The texts of all shaders that the game draws with, by what they are composed of.
+pub fn written() -> BTreeMap<String, String> {
+    let all = Pass::ALL.into_iter().flat_map(|pass| {
+        // Only the stages of geometry project what is no body.
+        let others: &[Worldlines] = if pass.may_be_inside() { &[Worldlines::Rings] } else { &[] };
+        let kinds = [&[pass.worldlines()], others].concat();
+        kinds.into_iter().flat_map(move |kind| [false, true].map(|inside| pass.choice(kind, Method::default(), inside)))
+    });
+    let unique: BTreeMap<String, Choice> = all.map(|choice| (choice.name(), choice)).collect();
+    unique.into_iter().map(|(name, choice)| (name, text(&choice.composed("")))).collect()
+}
+
+/// As wgpu writes it for a page.
+fn text(module: &Module) -> String {
+    let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(module);
+    let info = info.unwrap_or_else(|error| panic!("a composed shader: {error}"));
+    wgsl::write_string(module, &info, wgsl::WriterFlags::empty()).unwrap_or_else(|error| panic!("a composed shader: {error}"))
+}
+
+/// What a shader is composed of.
+#[derive(Clone, Copy, Debug)]
+struct Choice {
+    pass: Pass,
+    worldlines: Worldlines,
+    method: Method,
+    inside: bool,
+}
 
 macro_rules! passes {
     ($(#[$about:meta] $pass:ident: $file:literal,)*) => {
@@ -127,17 +183,34 @@ impl Pass {
     /// The same with another method of projection, where the pass looks rays up.
     /// `inside` is whether the camera may be inside the horizon.
     pub fn module_by(self, method: Method, inside: bool) -> Module {
-        self.module_along(self.worldlines(), method, inside)
+        self.choice(self.worldlines(), method, inside).composed("")
     }
 
     /// The same where the points of models go along other worldlines.
     pub fn module_along(self, worldlines: Worldlines, method: Method, inside: bool) -> Module {
-        self.composed(worldlines, method, inside, "")
+        self.choice(worldlines, method, inside).composed("")
     }
 
     /// The shader of the pass with `more` behind its own file: what a test runs of it.
     pub fn module_with(self, more: &str) -> Module {
-        self.composed(self.worldlines(), Method::default(), true, more)
+        self.choice(self.worldlines(), Method::default(), true).composed(more)
+    }
+
+    /// The shader of the pass, for a device.
+    pub fn shader(self) -> Shader {
+        self.shader_by(Method::default(), true)
+    }
+
+    /// The same with another method of projection. `inside` as of [`module_by`](Pass::module_by).
+    pub fn shader_by(self, method: Method, inside: bool) -> Shader {
+        self.shader_along(self.worldlines(), method, inside)
+    }
+
+    /// The same along other worldlines.
+    pub fn shader_along(self, worldlines: Worldlines, method: Method, inside: bool) -> Shader {
+        let choice = self.choice(worldlines, method, inside);
+        let brought = BROUGHT.get().and_then(|texts| texts.get(&choice.name()));
+        brought.map_or_else(|| Shader::Composed(choice.composed("")), |text| Shader::Written(text))
     }
 
     /// Those of what the pass projects.
@@ -149,18 +222,10 @@ impl Pass {
         }
     }
 
-    fn composed(self, worldlines: Worldlines, method: Method, inside: bool, more: &str) -> Module {
-        let (path, source) = self.file();
+    fn choice(self, worldlines: Worldlines, method: Method, inside: bool) -> Choice {
         // What is always a planet's is so whatever else is drawn.
         let worldlines = if self.worldlines() == Worldlines::Even { Worldlines::Even } else { worldlines };
-        let values = Values { inside: inside && self.may_be_inside(), data_group: if self.draws_data() { 2 } else { 1 } };
-        let mut libraries = LIBRARIES.lock().unwrap_or_else(PoisonError::into_inner);
-        let composed = match libraries.entry((worldlines, method.name)) {
-            Entry::Occupied(library) => library.into_mut().compose(path, &[source, more].concat(), values),
-            Entry::Vacant(place) => Library::new(worldlines, method, &[])
-                .and_then(|library| place.insert(library).compose(path, &[source, more].concat(), values)),
-        };
-        composed.unwrap_or_else(|error| panic!("{self:?}: {error}"))
+        Choice { pass: self, worldlines, method, inside: inside && self.may_be_inside() }
     }
 
     /// Whether the pass is ever run for a camera inside the horizon that looks at what is inside.
@@ -171,5 +236,43 @@ impl Pass {
     /// Whether instances, or the numbers of the disk, are in the group of images.
     fn draws_data(self) -> bool {
         matches!(self, Pass::Draw | Pass::DiskDraw | Pass::DiskPolygons | Pass::DiskSprites)
+    }
+}
+
+impl Choice {
+    fn name(&self) -> String {
+        format!("{:?} {:?} {} {}", self.pass, self.worldlines, self.method.name, if self.inside { "inside" } else { "outside" })
+    }
+
+    /// The shader, with `more` behind the pass's own file.
+    fn composed(&self, more: &str) -> Module {
+        let Choice { pass, worldlines, method, inside } = *self;
+        let (path, source) = pass.file();
+        let values = Values { inside, data_group: if pass.draws_data() { 2 } else { 1 } };
+        let mut libraries = LIBRARIES.lock().unwrap_or_else(PoisonError::into_inner);
+        let composed = match libraries.entry((worldlines, method.name)) {
+            Entry::Occupied(library) => library.into_mut().compose(path, &[source, more].concat(), values),
+            Entry::Vacant(place) => Library::new(worldlines, method, &[])
+                .and_then(|library| place.insert(library).compose(path, &[source, more].concat(), values)),
+        };
+        composed.unwrap_or_else(|error| panic!("{pass:?}: {error}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a page draws with is what is drawn with here: each text is read back as the same shader.
+    #[test]
+    fn written_shaders_can_be_read() {
+        let written = written();
+        assert!(written.len() > Pass::ALL.len());
+        for (name, text) in &written {
+            let module = naga::front::wgsl::parse_str(text).unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(text)));
+            let entries = |module: &Module| module.entry_points.iter().map(|entry| entry.name.clone()).collect::<Vec<_>>();
+            let pass = Pass::ALL.into_iter().find(|pass| name.starts_with(&format!("{pass:?} "))).expect("a pass");
+            assert_eq!(entries(&module), entries(&pass.module()), "{name}");
+        }
     }
 }

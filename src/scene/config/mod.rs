@@ -30,7 +30,7 @@ pub const FILE: &str = "game.toml";
 /// folder, beside the program or in the project's folder.
 pub fn file(named: Option<&Path>) -> Option<PathBuf> {
     named.map(Path::to_path_buf).or_else(|| {
-        let here = Some(PathBuf::from(FILE)).filter(|file| file.exists());
+        let here = Some(PathBuf::from(FILE)).filter(|file| crate::user_file::exists(file));
         here.or_else(|| game_files::find(FILE).on_disk().map(Path::to_path_buf))
     })
 }

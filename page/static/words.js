@@ -1,0 +1,25 @@
+// What the page says before the game can, in the browser's language.
+const words = {
+  en: {
+    loading: "Loading the game …",
+    starting: "Starting …",
+    noWebGpu: "This browser has no WebGPU, which the game draws with: Chrome and Edge from 121, Safari from 26 and Firefox from 141 have it.",
+    noAdapter: "The browser finds no graphics device that it may use: switch graphics acceleration on in its settings, and load the page again.",
+    missing: "A file of the game did not arrive: load the page again.",
+    memory: "The browser has not enough memory for the game: close other pages, and load this one again.",
+    failed: "The game had to end: load the page again, and it begins anew. What you have won is kept.",
+    upright: "Turn the screen: the game is wider than high.",
+  },
+  ja: {
+    loading: "ゲームを読み込んでいます…",
+    starting: "始めています…",
+    noWebGpu: "このブラウザにはゲームの描画に必要な WebGPU がありません。Chrome と Edge は 121、Safari は 26、Firefox は 141 から使えます。",
+    noAdapter: "ブラウザが使えるグラフィックス装置が見つかりません。設定でグラフィックスの高速化を有効にして、ページをもう一度読み込んでください。",
+    missing: "ゲームのファイルが届きませんでした。ページをもう一度読み込んでください。",
+    memory: "ブラウザのメモリがゲームに足りません。ほかのページを閉じて、もう一度読み込んでください。",
+    failed: "ゲームを続けられなくなりました。ページをもう一度読み込むと始められます。これまでの成績は残っています。",
+    upright: "画面を横向きにしてください。ゲームは横長です。",
+  },
+};
+export const language = navigator.language.startsWith("ja") ? "ja" : "en";
+export const say = words[language];

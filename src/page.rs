@@ -1,0 +1,26 @@
+//! What a page's JavaScript does for the game (`page/static/`). It imports no floor, and every floor may import it.
+
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// A panic ends the game with the page's sentence.
+pub fn say_panics() {
+    std::panic::set_hook(Box::new(|panic| ended(&panic.to_string())));
+}
+
+#[wasm_bindgen(js_namespace = lensrunner)]
+extern "C" {
+    /// Sends what is heard to the thread that makes the sound: the numbers of [`crate::play::sound::sent`].
+    pub fn sound(numbers: &[f64]);
+
+    /// The first frame is there: what was shown while the page loaded goes.
+    pub fn begun();
+
+    /// This screen is shown from now on: `title`, `playing`, `paused`, `result`, `photo`, `warning`; `won` after a flight that was.
+    pub fn screen(name: &str, won: bool);
+
+    /// The game cannot go on, for this reason: the page says so, and what can be done.
+    pub fn ended(why: &str);
+
+    /// Gives the player a file to keep where the browser keeps what is loaded down.
+    pub fn download(name: &str, bytes: &[u8]);
+}

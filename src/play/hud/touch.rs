@@ -1,0 +1,44 @@
+//! The sticks and buttons for fingers, as the HUD paints them.
+
+use bevy::prelude::Vec2;
+use bevy_egui::egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, pos2};
+
+use crate::play::hud::paint::{FAINT, OWN, TEXT};
+use crate::play::hud::palette::Palette;
+use crate::play::input::touch::TouchControls;
+use crate::play::words::Language;
+
+/// Size of the words on buttons, in radii of one.
+const LETTERS: f32 = 0.44;
+/// Under a button: what is behind it is seen.
+const GROUND: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 120);
+const HELD: Color32 = Color32::from_rgba_premultiplied(20, 60, 40, 160);
+
+/// Paints them; the screen begins at the upper left corner.
+pub fn paint(painter: &Painter, touch: &TouchControls, language: Language) {
+    let palette = Palette::in_use(painter.ctx());
+    let layout = &touch.layout;
+    let radius = layout.radius;
+    let ring = |at: Pos2, radius: f32, colour: Color32| {
+        painter.circle_stroke(at, radius, Stroke::new(1.5 + palette.wider(), palette.shown(colour)));
+    };
+    for ((rest, stands), pushed) in layout.sticks.iter().zip(touch.stands).zip(touch.sticks) {
+        let middle = point(stands.unwrap_or(*rest));
+        painter.circle_filled(middle, 2.2 * radius, GROUND);
+        ring(middle, 2.2 * radius, if stands.is_some() { OWN } else { FAINT });
+        let knob = middle + bevy_egui::egui::vec2(pushed.x, -pushed.y) * (1.4 * radius);
+        painter.circle_filled(knob, 0.8 * radius, if stands.is_some() { HELD } else { GROUND });
+        ring(knob, 0.8 * radius, if stands.is_some() { OWN } else { FAINT });
+    }
+    for button in &layout.buttons {
+        let (middle, held) = (point(button.middle), touch.holds(button.action));
+        painter.circle_filled(middle, radius, if held { HELD } else { GROUND });
+        ring(middle, radius, if held { OWN } else { FAINT });
+        let font = FontId::proportional(LETTERS * radius);
+        painter.text(middle, Align2::CENTER_CENTER, language.say(button.word), font, palette.shown(TEXT));
+    }
+}
+
+fn point(at: Vec2) -> Pos2 {
+    pos2(at.x, at.y)
+}

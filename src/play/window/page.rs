@@ -1,0 +1,38 @@
+//! What the page is told of the game: that it has begun, and which screen is shown.
+
+use bevy::prelude::*;
+
+use crate::page;
+use crate::play::menus::screens::Screen;
+use crate::play::missions::LastFlight;
+
+/// After so many frames one is on the page.
+const FRAMES_BEFORE_BEGUN: u32 = 2;
+
+/// Tells the page.
+pub(super) struct PagePlugin;
+
+impl Plugin for PagePlugin {
+    fn build(&self, app: &mut App) {
+        app.add_systems(Last, (begun, shown.run_if(state_changed::<Screen>)));
+    }
+}
+
+fn begun(mut frames: Local<u32>) {
+    *frames = frames.saturating_add(1);
+    if *frames == FRAMES_BEFORE_BEGUN {
+        page::begun();
+    }
+}
+
+fn shown(screen: Res<State<Screen>>, last: Option<Res<LastFlight>>) {
+    let name = match screen.get() {
+        Screen::Warning => "warning",
+        Screen::Title => "title",
+        Screen::Playing => "playing",
+        Screen::Paused => "paused",
+        Screen::Result => "result",
+        Screen::Photo => "photo",
+    };
+    page::screen(name, *screen.get() == Screen::Result && last.is_some_and(|last| last.won.is_some()));
+}
