@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use bevy::prelude::*;
+use bevy::tasks::block_on;
 use bevy::window::PrimaryWindow;
 use glam::DVec3;
 use lensrunner::render::plugin::{FrameToDraw, LensingTable, RelativisticRenderPlugin, SceneToDraw};
@@ -28,7 +29,7 @@ struct CurrentStage(Stage);
 fn load(mut commands: Commands, table: Res<LensingTable>, mut drawn: ResMut<SceneToDraw>) {
     let config = GameConfig::default();
     let scene = scene::load(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/lensed_model.toml")).expect("the example's scene is beside it");
-    let (stage, upload) = Stage::prepare(&table.0, &scene, scene.assemble(&config), &config, None);
+    let (stage, upload) = block_on(Stage::prepare(&table.0, &scene, scene.assemble(&config), &config, None));
     drawn.0 = Some(Arc::new(upload));
     commands.insert_resource(CurrentStage(stage));
     commands.spawn((Camera2d, Msaa::Off));

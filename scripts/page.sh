@@ -1,6 +1,6 @@
 # Sourced by ./web and ./test-web after prepare.sh: finds or makes a compiler for pages (wasm32-unknown-unknown), and gives
 #   page_build OPTIONS: builds a library for it, into $page_programs/PROFILE
-#   page_host COMMAND: runs page/host
+#   page_host COMMAND: runs page/host, $page_host_program
 #   page_make FOLDER: makes the page
 page_target=wasm32-unknown-unknown
 page_cache="${XDG_CACHE_HOME:-$HOME/.cache}/lensrunner"
@@ -19,7 +19,11 @@ page_make() {
     --table tables/default.lut --icon assets/package/icon.png --page page/static --prepare page/host/prepare.mjs "$1"
   du -ch "$1"/*.br | tail -n 1 | cut -f1 | sed "s|$|B compressed: $1|" >&2
 }
-page_host() { CARGO_TARGET_DIR="$CARGO_TARGET_DIR-web" cargo run --quiet --release --locked --manifest-path page/host/Cargo.toml -- "$@"; }
+page_host_program="$CARGO_TARGET_DIR-web/release/lensrunner_host"
+page_host() {
+  CARGO_TARGET_DIR="$CARGO_TARGET_DIR-web" cargo build --quiet --release --locked --manifest-path page/host/Cargo.toml
+  "$page_host_program" "$@"
+}
 
 # The standard library of the compiler in use.
 has_page_library() { [ -d "$(rustc --print sysroot)/lib/rustlib/$page_target/lib" ]; }
@@ -30,13 +34,7 @@ if ! has_page_library && command -v rustup >/dev/null; then
 fi
 if ! has_page_library; then
   # Debian has a newer compiler with its sources; the library is built from them once.
-  packages=(rustc-web cargo-web rust-web-src rust-web-llvm lld-22)
-  if command -v apt-get >/dev/null && ! dpkg -s "${packages[@]}" >/dev/null 2>&1; then
-    sudo=""
-    [ "$(id -u)" = 0 ] || sudo=sudo
-    echo "Installing ${packages[*]}" >&2
-    { $sudo apt-get update -qq && $sudo apt-get install -y -qq --no-install-recommends "${packages[@]}"; } >/dev/null || true
-  fi
+  install_missing rust-lld rustc-web cargo-web rust-web-src rust-web-llvm lld-22
   [ -x /usr/bin/rustc ] && [ -x /usr/bin/cargo ] || {
     echo "There is no standard library for $page_target: rustup target add $page_target" >&2
     exit 1

@@ -9,18 +9,22 @@ has_vulkan() { [ "$(uname)" != Linux ] || compgen -G "/usr/share/vulkan/icd.d/*.
 # The headers of a library, found as its build script finds them.
 has_headers() { [ "$(uname)" != Linux ] || { command -v pkg-config >/dev/null && pkg-config --exists "$1"; }; }
 
+# Installs Debian's packages where there are such and a program is not there; whoever needs it says what it misses.
+install_missing() {
+  local program="$1" sudo=""
+  shift
+  ! command -v "$program" >/dev/null && command -v apt-get >/dev/null || return 0
+  [ "$(id -u)" = 0 ] || sudo=sudo
+  echo "Installing $*" >&2
+  { $sudo apt-get update -qq && $sudo apt-get install -y -qq --no-install-recommends "$@"; } >/dev/null || true
+}
+
 missing=()
 # Any Vulkan driver will do; the software driver is installed where there is none.
 has_vulkan || missing+=(mesa-vulkan-drivers libvulkan1)
 has_headers alsa || missing+=(pkg-config libasound2-dev)
 has_headers libudev || missing+=(pkg-config libudev-dev)
-if [ ${#missing[@]} -gt 0 ] && command -v apt-get >/dev/null; then
-  sudo=""
-  [ "$(id -u)" = 0 ] || sudo=sudo
-  echo "Installing ${missing[*]}" >&2
-  { $sudo apt-get update -qq && $sudo apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >/dev/null \
-    || echo "Not all of it could be installed; the game will say what it misses." >&2
-fi
+[ ${#missing[@]} -eq 0 ] || install_missing "" "${missing[@]}"
 
 with=lensrunner/game
 if has_headers alsa; then with+=,lensrunner/sound; else echo "Built without sound: the ALSA headers (libasound2-dev) are missing." >&2; fi

@@ -23,6 +23,7 @@
 //! Units are r_s = c = 1 throughout; T is Painlevé–Gullstrand time.
 
 pub mod argument;
+pub mod breath;
 pub mod game_files;
 pub mod judge;
 pub mod lensing;

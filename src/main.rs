@@ -159,7 +159,8 @@ struct SimulateArgs {
     /// The scene: a TOML file, or the name of one in assets/scenes.
     #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes."), required_unless_present = "replay")]
     scene: Option<String>,
-    /// Flies a replay again instead, and says whether it comes to the same end: a file, or one of the game's own, as 01-training-expert.
+    /// Flies a replay again instead, and says whether it comes to the same end: a file, a link, or one of the game's own, as
+    /// 01-training-expert.
     /// SCENE is then the file of a mission of your own.
     #[arg(long, value_name = "NAME|FILE", conflicts_with_all = ["until", "every", "seed", "output"])]
     replay: Option<PathBuf>,

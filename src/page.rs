@@ -12,6 +12,9 @@ extern "C" {
     /// Sends what is heard to the thread that makes the sound: the numbers of [`crate::play::sound::sent`].
     pub fn sound(numbers: &[f64]);
 
+    /// Goes on once the page has done what waited.
+    pub async fn breath();
+
     /// The first frame is there: what was shown while the page loaded goes.
     pub fn begun();
 
@@ -20,6 +23,9 @@ extern "C" {
 
     /// The game cannot go on, for this reason: the page says so, and what can be done.
     pub fn ended(why: &str);
+
+    /// Puts the page's address with this end where the player can paste it from.
+    pub fn share(link: &str);
 
     /// Gives the player a file to keep where the browser keeps what is loaded down.
     pub fn download(name: &str, bytes: &[u8]);

@@ -13,6 +13,7 @@ use lensrunner::scene::model::import::load_model;
 use lensrunner::scene::pilot_kind::PilotKind;
 use lensrunner::scene::{self, Difficulty, GameConfig, Scene};
 use lensrunner::sim::replay::Replay;
+use lensrunner::sim::replay::link::MARK;
 use lensrunner::sim::run::fly_to_end;
 use lensrunner::sim::snapshot::Snapshot;
 use lensrunner::sim::sweep::Axis;
@@ -170,11 +171,16 @@ pub fn model(bytes: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
-/// Replays: read, written, read again, and their first steps flown.
+/// Replays, in files and as links: read, written, read again, and their first steps flown.
 pub fn replay(bytes: &[u8]) -> Result<(), String> {
     let path = file("toml", bytes);
-    let replay = said(Replay::load(&path))?;
+    let link = std::str::from_utf8(bytes).ok().filter(|text| text.starts_with(MARK));
+    let replay = said(link.map_or_else(|| Replay::load(&path), Replay::from_link))?;
     assert_eq!(Replay::from_text(&path, &replay.to_text()).expect("its own text"), replay);
+    if let Ok(link) = replay.to_link() {
+        let again = Replay::from_link(&link).expect("its own link");
+        assert!(again.to_link().as_ref() == Ok(&link) && again.records == replay.records);
+    }
     let scene = said(replay.scene(&path, None))?;
     fly(&replay, &scene);
     Ok(())

@@ -4,12 +4,17 @@
 #[path = "../../src/inside.rs"]
 mod inside;
 
+use std::path::Path;
+
+use lensrunner::breath::breath;
 use lensrunner::lensing::table::packed;
 use lensrunner::play::session::Session;
-use lensrunner::play::window::{Options, run};
+use lensrunner::play::window::{Options, prepared};
 use lensrunner::render::gpu::shaders;
 use lensrunner::scene::Difficulty;
 use lensrunner::scene::config::Assignment;
+use lensrunner::sim::replay::Replay;
+use lensrunner::sim::replay::link::MARK;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -20,21 +25,34 @@ const TABLE: &str = "tables/default.lut";
 const KEYS: [&str; 2] = ["controls.thrust_down=KeyX PadLeftBumper", "controls.screenshot=F4"];
 
 /// Begins the game on the element `#game`, with what [`pack`] and [`written_shaders`] gave. Fails with a sentence if these, or its own files,
-/// are not as they were built.
+/// are not as they were built. `address`: the end of the page's, which may be a flight to show.
 #[wasm_bindgen]
-pub fn play(table: &[u8], shaders: &str) -> Result<(), JsError> {
+pub async fn play(table: Vec<u8>, shaders: String, address: String) -> Result<(), JsError> {
     lensrunner::page::say_panics();
-    let table = packed::unpack(table).ok_or_else(|| JsError::new("the table is damaged"))?;
+    let table = packed::unpack(&table).ok_or_else(|| JsError::new("the table is damaged"))?;
     let table: &'static [u8] = table.leak();
     lensrunner::game_files::embed(inside::FILES.iter().copied().chain([(TABLE, table)]));
-    shaders::bring(serde_json::from_str(shaders)?);
-    let mut session = Session::load(None, None, None)?;
+    shaders::bring(serde_json::from_str(&shaders)?);
+    breath().await;
+    let mut options = Options::default();
+    if address.contains(MARK) {
+        let flight = Replay::from_link(&address).and_then(|replay| replay.scene(Path::new("the link"), None).map(|_| replay));
+        // The title is there all the same.
+        flight.map_or_else(|error| options.said = Some(error.to_string()), |replay| options.replay = Some(replay));
+    }
+    let scene = options.replay.as_ref().map(|replay| replay.scene.as_str());
+    let mut session = Session::load(None, scene, None)?;
     session.difficulty = Difficulty::Easy;
     for keys in KEYS.iter().filter(|_| session.config_file.is_none()) {
         keys.parse::<Assignment>().map_err(|error| JsError::new(&error))?.apply(&mut session.config);
     }
+    if let Some(replay) = &options.replay {
+        session.config = replay.config(&session.config);
+        (session.difficulty, session.seed) = (replay.difficulty, replay.seed);
+    }
     // It goes on after this: the page calls it for each frame.
-    run(session, &Options::default());
+    breath().await;
+    prepared(session, &options).await.run();
     Ok(())
 }
 

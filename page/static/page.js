@@ -55,7 +55,7 @@ async function load() {
   at("bar").removeAttribute("value");
   // The words are painted before the game takes the page's thread.
   await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
-  play(new Uint8Array(table), shaders);
+  await play(new Uint8Array(table), shaders, location.hash);
 }
 
 // The sound's own thread, begun by the player's first gesture, as browsers want it; the last that was to be heard is told it then.
@@ -99,6 +99,7 @@ for (const kind of ["contextmenu", "wheel"]) game.addEventListener(kind, (event)
 
 // What the game asks the page for (`src/page.rs`).
 globalThis.lensrunner = {
+  breath: () => new Promise((resolve) => setTimeout(resolve)),
   sound(numbers) {
     sound.last = Float64Array.from(numbers);
     sound.port?.postMessage(sound.last);
@@ -110,8 +111,16 @@ globalThis.lensrunner = {
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
   },
+  share(link) {
+    const address = location.origin + location.pathname + link;
+    // Who forbids the clipboard finds it where addresses are.
+    const shown = () => history.replaceState(null, "", link);
+    navigator.clipboard ? navigator.clipboard.writeText(address).catch(shown) : shown();
+  },
   begun() {
     at("loading").hidden = true;
+    // A flight that was opened is opened once.
+    history.replaceState(null, "", location.pathname + location.search);
     game.focus();
     // Kept for the next time only now: it loads the same files.
     navigator.serviceWorker?.register("keep.js").catch((error) => console.warn(`The page is not kept: ${error}`));

@@ -29,6 +29,7 @@ use crate::play::picture::stage_loading::change_scene;
 use crate::play::player_state::{Flown, PlayerState};
 use crate::play::schedule::{self, GameSet};
 use crate::play::session::Session;
+use crate::play::share;
 use crate::play::switches::read_keys;
 
 /// Screens, input and time: all of the game that needs no window. Needs [`SimulationPlugins`](crate::sim::SimulationPlugins), [`Session`]
@@ -158,6 +159,7 @@ fn answer_menus(world: &mut World) {
                     world.insert_resource(Watched(replay));
                 }
             }
+            MenuAction::Share => share::share(world),
             MenuAction::Again => {
                 world.remove_resource::<Watched>();
                 world.resource_mut::<PlayerState>().same_start = true;

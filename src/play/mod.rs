@@ -26,6 +26,7 @@ pub mod player_state;
 pub mod records;
 pub mod schedule;
 pub mod session;
+pub mod share;
 pub mod sound;
 mod switches;
 pub mod tour;
@@ -69,8 +70,8 @@ pub struct PlayArgs {
     /// Flies at once, without the title.
     #[arg(long)]
     pub at_once: bool,
-    /// Shows the flight of a replay: a file, or one of the game's own, as 01-training-expert; --scene is then the file of a mission of
-    /// your own.
+    /// Shows the flight of a replay: a file, a link, or one of the game's own, as 01-training-expert; --scene is then the file of a
+    /// mission of your own.
     #[arg(long, value_name = "NAME|FILE", conflicts_with_all = ["seed", "difficulty"])]
     pub replay: Option<PathBuf>,
     /// The autopilot flies the player's ship.
@@ -241,6 +242,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
             replay,
             at_once: args.at_once,
             data: None,
+            said: None,
             verbose: args.verbose,
             timings: args.timings.clone().map(|file| (file, started)),
         };

@@ -81,7 +81,7 @@ impl Plugin for RelativisticRenderPlugin {
         let wake = Wake::default();
         let early = making.clone();
         // Without this thread they are made when the renderer is.
-        _ = Job::begin("surroundings", &wake, move || _ = early.wait());
+        _ = Job::begin("surroundings", &wake, async move || _ = early.wait());
         app.init_resource::<FrameToDraw>()
             .init_resource::<SceneToDraw>()
             .init_resource::<SceneReady>()
@@ -158,7 +158,7 @@ fn make_renderer(world: &mut World) {
     let (device, queue, info) = (world.resource::<RenderDevice>(), world.resource::<RenderQueue>(), world.resource::<RenderAdapterInfo>());
     let gpu = Gpu { device: device.wgpu_device().clone(), queue: (**queue.0).clone(), adapter: (***info).clone(), watch: Watch::default() };
     let making = world.resource::<SurroundingsInTheMaking>().clone();
-    let make = move || Renderer::new(&gpu, making.wait(), wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1]);
+    let make = async move || Renderer::new(&gpu, making.wait(), wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1]);
     let loader = RendererLoader::begin(world.resource::<Wake>(), make);
     world.insert_resource(loader);
 }

@@ -6,6 +6,8 @@ use std::sync::Arc;
 use bevy::platform::cell::SyncCell;
 use bevy::prelude::Resource;
 
+use crate::breath::breath;
+use crate::render::disk::textures::make_patterns;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::targets::target;
 use crate::render::job::{Job, Wake};
@@ -26,13 +28,13 @@ pub(super) struct Broken;
 
 impl RendererLoader {
     /// Has a renderer made; who waits is woken by the end of that, and of all other work.
-    pub fn begin(wake: &Wake, make: impl FnOnce() -> Renderer + Send + 'static) -> RendererLoader {
+    pub fn begin<F: Future<Output = Renderer> + 'static>(wake: &Wake, make: impl FnOnce() -> F + Send + 'static) -> RendererLoader {
         let mut loader = RendererLoader { renderer: None, work: None, scene: None, wake: wake.clone() };
         loader.work(make);
         loader
     }
 
-    fn work(&mut self, work: impl FnOnce() -> Renderer + Send + 'static) {
+    fn work<F: Future<Output = Renderer> + 'static>(&mut self, work: impl FnOnce() -> F + Send + 'static) {
         self.work = Job::begin("renderer", &self.wake, work).ok();
     }
 
@@ -68,9 +70,13 @@ impl RendererLoader {
             return;
         }
         let scene = scene.clone();
-        self.work(move || {
+        self.work(async move || {
+            if scene.disk.is_some() {
+                make_patterns().await;
+            }
             renderer.upload(&scene);
-            rehearse(&mut renderer, &scene.rehearsal);
+            breath().await;
+            rehearse(&mut renderer, &scene.rehearsal).await;
             renderer
         });
     }
@@ -86,7 +92,7 @@ impl Drop for RendererLoader {
 }
 
 /// Draws frames that nobody sees: some drivers compile a pass when it is first drawn with.
-fn rehearse(renderer: &mut Renderer, frames: &[FrameInput]) {
+async fn rehearse(renderer: &mut Renderer, frames: &[FrameInput]) {
     let size = renderer.size();
     renderer.resize(REHEARSED);
     let gpu = renderer.gpu().clone();
@@ -98,6 +104,7 @@ fn rehearse(renderer: &mut Renderer, frames: &[FrameInput]) {
             gpu.queue.submit([encoder.finish()]);
             // A device that is lost meanwhile ends the game elsewhere.
             _ = gpu.device.poll(wgpu::PollType::wait_indefinitely());
+            breath().await;
         }
     }
     renderer.resize(size);

@@ -3,8 +3,10 @@
 use crate::spacetime::Observer;
 use std::sync::Arc;
 
+use bevy::tasks::block_on;
 use glam::{DQuat, DVec3};
 
+use crate::breath::breath;
 use crate::lensing::{Slice, Table};
 use crate::scene::camera::viewpoint;
 use crate::scene::config::AuroraConfig;
@@ -96,13 +98,13 @@ impl Stage {
 
     /// The same with models made elsewhere; `mark` changes each before it is uploaded, those too that stand in for finer ones.
     pub fn of(renderer: &mut Renderer, scene: &Scene, assembly: Assembly, config: &GameConfig, mark: Option<fn(&Model) -> Model>) -> Stage {
-        let (stage, upload) = Stage::prepare(&renderer.table().clone(), scene, assembly, config, mark);
+        let (stage, upload) = block_on(Stage::prepare(&renderer.table().clone(), scene, assembly, config, mark));
         renderer.upload(&upload);
         stage
     }
 
     /// The stage, and what is to be uploaded before a frame of it is drawn: for where there is no renderer at hand. As [`of`](Stage::of).
-    pub fn prepare(
+    pub async fn prepare(
         table: &Arc<Table>,
         scene: &Scene,
         assembly: Assembly,
@@ -113,29 +115,30 @@ impl Stage {
             bevy::log::warn!("{warning}");
         }
         let mut models = ModelSet::default();
-        let mut add = |model: &Model| match mark {
-            Some(mark) => models.add(&mark(model)),
-            None => models.add(model),
-        };
+        let marked = |model: &Model| mark.map(|mark| mark(model));
+        let add = |models: &mut ModelSet, model: &Model| models.add(marked(model).as_ref().unwrap_or(model));
         // A smaller globe needs fewer triangles, but stays round.
         let globe =
             assembly.objects.iter().find(|object| object.body == Body::Planet).map(|object| object.model).zip(scene.planet.as_ref());
-        let ranges: Vec<LevelsOfDetail> = assembly
-            .models
-            .iter()
-            .enumerate()
-            .map(|(number, model)| {
-                let is_globe = globe.is_some_and(|(of, _)| of == number);
-                let coarser = match globe {
-                    Some((_, planet)) if is_globe => planet.stand_ins(model),
-                    _ => stand_ins(model).into_iter().map(|coarser| (MOST_MOVED / coarser.moved, coarser.model)).collect(),
-                };
-                let fine = add(model);
-                let stand_in = |(below, model): &(f64, Model)| StandIn { below: *below, model: add(model) };
-                let stand_ins: Vec<StandIn> = coarser.iter().map(stand_in).collect();
-                LevelsOfDetail { model: fine, coarse: stand_ins.first().map_or(fine, |coarsest| coarsest.model), stand_ins }
-            })
-            .collect();
+        let mut ranges: Vec<LevelsOfDetail> = Vec::new();
+        for (number, model) in assembly.models.iter().enumerate() {
+            let is_globe = globe.is_some_and(|(of, _)| of == number);
+            let coarser = match globe {
+                Some((_, planet)) if is_globe => planet.stand_ins(model),
+                _ => stand_ins(model).into_iter().map(|coarser| (MOST_MOVED / coarser.moved, coarser.model)).collect(),
+            };
+            breath().await;
+            models.add_images(marked(model).as_ref().unwrap_or(model));
+            breath().await;
+            let fine = add(&mut models, model);
+            let mut stand_ins: Vec<StandIn> = Vec::new();
+            for (below, model) in &coarser {
+                breath().await;
+                stand_ins.push(StandIn { below: *below, model: add(&mut models, model) });
+            }
+            ranges.push(LevelsOfDetail { model: fine, coarse: stand_ins.first().map_or(fine, |coarsest| coarsest.model), stand_ins });
+            breath().await;
+        }
         let radii: Vec<f64> = assembly.models.iter().map(|model| f64::from(model.radius())).collect();
         let lights = Lights::of(scene, config);
         let mut held = HeldBodies::default();

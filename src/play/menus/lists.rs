@@ -118,7 +118,10 @@ fn result(world: &World, session: &Session) -> Vec<Entry> {
     let mut entries: Vec<Entry> = won.then(|| ask(language, "next", "menu-next", MenuAction::Next)).into_iter().collect();
     entries.push(ask(language, "again", "menu-again", MenuAction::Again));
     entries.push(ask(language, "another", "menu-another", MenuAction::Start));
-    entries.extend(kept.then(|| ask(language, "watch", "menu-watch", MenuAction::Watch)));
+    if kept {
+        entries.push(ask(language, "watch", "menu-watch", MenuAction::Watch));
+        entries.push(ask(language, "share", "menu-share", MenuAction::Share));
+    }
     entries.push(ask(language, "title", "menu-title", MenuAction::Title));
     entries.push(ask(language, "quit", "menu-quit", MenuAction::Quit));
     entries

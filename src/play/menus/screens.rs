@@ -43,6 +43,8 @@ pub enum MenuAction {
     Next,
     /// The last flight, to look at.
     Watch,
+    /// Its link, to hand on.
+    Share,
     /// This entry of the title's list: a mission, or the last for free flight.
     Choose(usize),
     /// This scene for free flight.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
+use crate::breath::breath;
 use crate::play::camera::{CameraView, state_of};
 use crate::play::loading::Loading;
 use crate::play::picture::now::Now;
@@ -15,6 +16,7 @@ use crate::render::job::{Job, Wake};
 use crate::render::plugin::{FrameToDraw, LensingTable, SceneReady, SceneToDraw};
 use crate::render::renderer::{REHEARSED, SceneUpload};
 use crate::render::stage::{Stage, settings};
+use crate::scene::model::texture::make_planet;
 use crate::sim::snapshot::FrameCamera;
 
 /// The scene, ready for frames.
@@ -48,8 +50,13 @@ impl Plugin for StageLoadingPlugin {
 pub fn restage(world: &mut World) {
     let (Some(table), Some(session)) = (world.get_resource::<LensingTable>(), world.get_resource::<Session>()) else { return };
     let (table, scene, config) = (table.0.clone(), session.scene.clone(), session.effective());
-    let make = move || {
-        let (stage, upload) = Stage::prepare(&table, &scene, scene.assemble(&config), &config, None);
+    let make = async move || {
+        if let Some(planet) = &scene.planet {
+            make_planet(planet.seed).await;
+        }
+        let assembly = scene.assemble(&config);
+        breath().await;
+        let (stage, upload) = Stage::prepare(&table, &scene, assembly, &config, None).await;
         (stage.watched(), upload)
     };
     match Job::begin("scene", world.resource::<Wake>(), make) {

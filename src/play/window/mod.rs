@@ -12,12 +12,15 @@ pub mod timings;
 use std::io::IsTerminal as _;
 use web_time::Instant;
 
+use bevy::core_pipeline::CorePipelinePlugin;
 use bevy::log::LogPlugin;
 use bevy::prelude::*;
+use bevy::tasks::block_on;
 use bevy::window::WindowMode;
 use bevy::winit::WinitPlugin;
 use bevy_egui::EguiPlugin;
 
+use crate::breath::breath;
 use crate::play::choices::Choices;
 use crate::play::coach::CoachPlugin;
 use crate::play::game::{GamePlugin, begin};
@@ -58,6 +61,8 @@ pub struct Options {
     pub at_once: bool,
     /// Where the best flights are kept; None: in the user's data folder.
     pub data: Option<std::path::PathBuf>,
+    /// Is said on the screen as it begins.
+    pub said: Option<String>,
     /// Says in the terminal how much is drawn, and why.
     pub verbose: bool,
     /// Writes the time of each frame here, counted from then.
@@ -75,12 +80,17 @@ pub enum OutputSurface {
 
 /// Opens the window and plays until it closes.
 pub fn run(session: Session, options: &Options) -> AppExit {
+    block_on(prepared(session, options)).run()
+}
+
+/// The game, ready to run in a window.
+pub async fn prepared(session: Session, options: &Options) -> App {
     let (choices, said) = Choices::load();
-    let mut app = app(session, options, OutputSurface::Window, choices);
-    if let Some(text) = said {
+    let mut app = app_in_steps(session, options, OutputSurface::Window, choices).await;
+    if let Some(text) = said.or_else(|| options.said.clone()) {
         app.insert_resource(Notice { text, until: 15.0, share: None });
     }
-    app.run()
+    app
 }
 
 /// Plays without a display, on a picture that nobody sees, until the frames are drawn: to measure.
@@ -97,7 +107,11 @@ pub fn run_unseen(session: Session, options: &Options, size: [u32; 2]) -> AppExi
 }
 
 /// The whole game, drawn on `surface`, with these choices over the session's configuration.
-pub fn app(mut session: Session, options: &Options, surface: OutputSurface, choices: Choices) -> App {
+pub fn app(session: Session, options: &Options, surface: OutputSurface, choices: Choices) -> App {
+    block_on(app_in_steps(session, options, surface, choices))
+}
+
+async fn app_in_steps(mut session: Session, options: &Options, surface: OutputSurface, choices: Choices) -> App {
     let file_config = session.config.clone();
     choices.over(&mut session.config);
     session.put_set();
@@ -120,10 +134,15 @@ pub fn app(mut session: Session, options: &Options, surface: OutputSurface, choi
     // Pictures that nobody waits for are drawn at their finest.
     let governed = matches!(surface, OutputSurface::Window) || options.timings.is_some();
     let window = WindowPlugin { primary_window: Some(window(&session, options, &surface)), ..default() };
+    // Apart: it takes as long as all the others.
+    let default = DefaultPlugins.build().disable::<CorePipelinePlugin>().set(window);
     match surface {
-        OutputSurface::Window => app.add_plugins(DefaultPlugins.set(window).set(log)),
-        OutputSurface::Picture(_) => app.add_plugins(DefaultPlugins.build().disable::<WinitPlugin>().disable::<LogPlugin>().set(window)),
+        OutputSurface::Window => app.add_plugins(default.set(log)),
+        OutputSurface::Picture(_) => app.add_plugins(default.disable::<WinitPlugin>().disable::<LogPlugin>()),
     };
+    breath().await;
+    app.add_plugins(CorePipelinePlugin);
+    breath().await;
     app.add_plugins((EguiPlugin::default(), RelativisticRenderPlugin { surroundings }))
         .add_plugins((
             SimulationPlugins,

@@ -1,5 +1,6 @@
 //! The pattern of the gas as textures.
 
+use crate::breath::breath;
 use crate::render::Gpu;
 use crate::render::gpu::layout::new_texture;
 use std::sync::LazyLock;
@@ -18,6 +19,14 @@ pub struct Textures {
     pub far: wgpu::TextureView,
     /// The near pattern: without the finest octaves, in 16-bit floats, laid out in the same way.
     pub near: wgpu::TextureView,
+}
+
+/// Has the patterns worked out now, one after the other, which [`Textures::new`] else does.
+pub async fn make_patterns() {
+    LazyLock::force(&LATTICE);
+    breath().await;
+    LazyLock::force(&FAR);
+    breath().await;
 }
 
 impl Textures {

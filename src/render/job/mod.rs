@@ -1,5 +1,5 @@
-//! Work on threads of its own while something else is shown, and what wakes who waits for it. A page has one thread: there the work is done
-//! when it is begun.
+//! Work on threads of its own while something else is shown, and what wakes who waits for it. A page has one thread: there the work goes on
+//! between frames, wherever it takes a [breath](crate::breath).
 
 #[cfg(target_family = "wasm")]
 mod page;
@@ -45,12 +45,12 @@ mod tests {
     fn the_end_of_a_job_wakes() {
         let wake = Wake::default();
         let begin = web_time::Instant::now();
-        let job = Job::begin("job", &wake, || 5).unwrap();
+        let job = Job::begin("job", &wake, async || 5).unwrap();
         wake.wait(Duration::from_secs(60));
         assert!(job.is_finished() && begin.elapsed() < Duration::from_secs(50));
         assert_eq!(job.join().unwrap(), 5);
         // One that ends badly too; and what came before one waits is not missed.
-        let job = Job::<()>::begin("bad job", &wake, || std::panic::resume_unwind(Box::new(()))).unwrap();
+        let job = Job::<()>::begin("bad job", &wake, async || std::panic::resume_unwind(Box::new(()))).unwrap();
         wake.wait(Duration::from_secs(60));
         assert!(job.is_finished() && job.join().is_err());
         wake.wake();

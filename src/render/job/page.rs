@@ -1,33 +1,40 @@
-//! Work where there is one thread: it is done when it is begun.
+//! Work where there is one thread: it goes on between frames, from one breath to the next.
 
-use bevy::platform::cell::SyncCell;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::Wake;
 
-/// Work that is done.
-pub struct Job<T>(SyncCell<T>);
-
-impl<T> std::fmt::Debug for Job<T> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("Job")
-    }
-}
+/// Work that goes on between frames.
+#[derive(Debug)]
+pub struct Job<T>(Arc<Mutex<Option<T>>>);
 
 impl<T: Send + 'static> Job<T> {
-    /// Does the work; its end wakes who waits.
-    pub fn begin(_: &str, wake: &Wake, work: impl FnOnce() -> T + Send + 'static) -> std::io::Result<Job<T>> {
-        let made = work();
-        wake.wake();
-        Ok(Job(SyncCell::new(made)))
+    /// Begins the work; its end wakes who waits.
+    pub fn begin<F: Future<Output = T> + 'static>(
+        _: &str,
+        wake: &Wake,
+        work: impl FnOnce() -> F + Send + 'static,
+    ) -> std::io::Result<Job<T>> {
+        let (made, wake) = (Arc::new(Mutex::new(None)), wake.clone());
+        let place = made.clone();
+        wasm_bindgen_futures::spawn_local(async move {
+            // After what the page is doing now.
+            crate::page::breath().await;
+            let made = work().await;
+            *place.lock().unwrap_or_else(PoisonError::into_inner) = Some(made);
+            wake.wake();
+        });
+        Ok(Job(made))
     }
 
-    /// It is.
+    /// Whether [`join`](Job::join) has what was made.
     pub fn is_finished(&self) -> bool {
-        true
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).is_some()
     }
 
-    /// What was made.
+    /// What was made. Fails before the end: a page cannot wait.
     pub fn join(self) -> std::thread::Result<T> {
-        Ok(SyncCell::to_inner(self.0))
+        let made = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
+        made.ok_or_else(|| Box::new("it is not done yet") as _)
     }
 }

@@ -4,6 +4,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 
+use bevy::tasks::block_on;
+
 use super::Wake;
 
 /// Work on a thread of its own.
@@ -25,12 +27,12 @@ impl Drop for Ends {
 
 impl<T: Send + 'static> Job<T> {
     /// Begins work on a thread of this name; its end wakes who waits.
-    pub fn begin(name: &str, wake: &Wake, work: impl FnOnce() -> T + Send + 'static) -> std::io::Result<Job<T>> {
+    pub fn begin<F: Future<Output = T>>(name: &str, wake: &Wake, work: impl FnOnce() -> F + Send + 'static) -> std::io::Result<Job<T>> {
         let ended = Arc::new(AtomicBool::new(false));
         let ends = Ends(ended.clone(), wake.clone());
         let thread = std::thread::Builder::new().name(name.to_owned()).spawn(move || {
             let _ends = ends;
-            work()
+            block_on(work())
         })?;
         Ok(Job { thread, ended })
     }

@@ -196,6 +196,13 @@ impl ModelSet {
         range
     }
 
+    /// Makes the images of a model ready, which [`add`](ModelSet::add) else does.
+    pub fn add_images(&mut self, model: &Model) {
+        for image in model.materials.iter().filter_map(|material| material.texture.as_ref()) {
+            self.layer(image);
+        }
+    }
+
     /// The layer of the texture array for an image. None when the array is full: the surface is then plain.
     fn layer(&mut self, image: &Arc<Image>) -> Option<usize> {
         if let Some(known) = self.images.iter().position(|(other, _)| Arc::ptr_eq(other, image)) {

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use rayon::prelude::*;
 
 use super::Image;
+use crate::breath::breath;
 use crate::scene::aurora::random;
 
 /// Width and height of the galaxy, in pixels.
@@ -43,24 +44,43 @@ pub fn galaxy() -> Arc<Image> {
 /// A planet of oceans, land, ice at the poles and clouds, 1024 × 512 pixels by longitude and latitude; `seed` says which. The last one is
 /// kept.
 pub fn planet(seed: u32) -> Arc<Image> {
-    static LAST: Mutex<Option<(u32, Arc<Image>)>> = Mutex::new(None);
     let lock = || LAST.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, image)) = lock().as_ref().filter(|(last, _)| *last == seed) {
         return image.clone();
     }
-    let image = planet_image(seed);
+    let image = Arc::new(draw(PLANET_SIZE[0], PLANET_SIZE[1], |x, y| planet_pixel(x, y, seed)));
     *lock() = Some((seed, image.clone()));
     image
 }
 
-fn planet_image(seed: u32) -> Arc<Image> {
-    Arc::new(draw(1024, 512, |x, y| {
-        let (longitude, colatitude) = (TAU * (x as f32 + 0.5) / 1024.0, PI * (y as f32 + 0.5) / 512.0);
-        let (sine, cosine) = colatitude.sin_cos();
-        let position = [sine * longitude.sin(), cosine, sine * longitude.cos()];
-        let [r, g, b] = planet_light(position, seed).map(encode_srgb);
-        [r, g, b, 255]
-    }))
+/// Has the same planet made now, a few rows at a time, so that [`planet`] has it.
+pub async fn make_planet(seed: u32) {
+    let lock = || LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    if lock().as_ref().is_some_and(|(last, _)| *last == seed) {
+        return;
+    }
+    let [width, height] = PLANET_SIZE;
+    let mut rgba = Vec::with_capacity((width * height * 4) as usize);
+    for first in (0..height).step_by(ROWS) {
+        rgba.append(&mut draw(width, ROWS as u32, |x, y| planet_pixel(x, first + y, seed)).rgba);
+        breath().await;
+    }
+    *lock() = Some((seed, Arc::new(Image { width, height, rgba })));
+}
+
+/// Width and height of the planet, in pixels.
+const PLANET_SIZE: [u32; 2] = [1024, 512];
+/// Rows of it that are made at once.
+const ROWS: usize = 8;
+/// The planet that was made last.
+static LAST: Mutex<Option<(u32, Arc<Image>)>> = Mutex::new(None);
+
+fn planet_pixel(x: u32, y: u32, seed: u32) -> [u8; 4] {
+    let (longitude, colatitude) = (TAU * (x as f32 + 0.5) / 1024.0, PI * (y as f32 + 0.5) / 512.0);
+    let (sine, cosine) = colatitude.sin_cos();
+    let position = [sine * longitude.sin(), cosine, sine * longitude.cos()];
+    let [r, g, b] = planet_light(position, seed).map(encode_srgb);
+    [r, g, b, 255]
 }
 
 /// Albedo of the planet at a unit vector, linear sRGB.

@@ -3,6 +3,7 @@
 //! A replay is a TOML file. Its `log` holds the records, packed (column by column, differences, DEFLATE, Base64); `check` is the CRC-32 of
 //! all lines before it. The same version of the program flies it to the same end on every machine (`./test-web`).
 
+pub mod link;
 mod packing;
 
 use std::path::{Path, PathBuf};
@@ -233,8 +234,11 @@ impl Replay {
         })
     }
 
-    /// Reads a file, or the replay of this name that the game comes with.
+    /// Reads a file, or the replay of this name that the game comes with; or a link.
     pub fn load(path: &Path) -> Result<Replay, ReplayError> {
+        if let Some(address) = path.to_str().filter(|text| text.contains(link::MARK)) {
+            return Replay::from_link(address);
+        }
         let file = path.to_str().map_or_else(|| GameFile::at(path), |name| game_files::named(&["assets/replays"], name));
         let read = |fault: FileFault| ReplayError::Read { path: file.path.clone(), source: fault.into() };
         let text = file.read_text(MOST_BYTES).map_err(read)?;
