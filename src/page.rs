@@ -1,4 +1,4 @@
-//! What a page's JavaScript does for the game (`page/static/`). It imports no floor, and every floor may import it.
+//! What a page's JavaScript does for the game (`page/static/page.js`). It imports no floor, and every floor may import it.
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -18,6 +18,12 @@ extern "C" {
     /// The first frame is there: what was shown while the page loaded goes.
     pub fn begun();
 
+    /// Whether the first thing that points here is a finger.
+    pub fn by_finger() -> bool;
+
+    /// A scene is drawn from now on.
+    pub fn drawn();
+
     /// This screen is shown from now on: `title`, `playing`, `paused`, `result`, `photo`, `warning`; `won` after a flight that was.
     pub fn screen(name: &str, won: bool);
 
@@ -26,6 +32,12 @@ extern "C" {
 
     /// Puts the page's address with this end where the player can paste it from.
     pub fn share(link: &str);
+
+    /// Gives the player all that the browser keeps as one file.
+    pub fn save_all();
+
+    /// Asks the player for such a file, and begins anew with it.
+    pub fn bring_all();
 
     /// Gives the player a file to keep where the browser keeps what is loaded down.
     pub fn download(name: &str, bytes: &[u8]);

@@ -4,23 +4,25 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Floors from the ground up, each with the floors that it may import.
-const FLOORS: [(&str, &[&str]); 11] = [
+const FLOORS: [(&str, &[&str]); 13] = [
     ("user_file", &[]),
+    ("page", &[]),
+    ("breath", &["page"]),
     ("argument", &[]),
     ("game_files", &["user_file"]),
     ("picture_file", &["user_file"]),
     ("spacetime", &[]),
     ("lensing", &["spacetime", "game_files", "user_file"]),
     // Of the methods of projection it knows the names alone.
-    ("scene", &["spacetime", "lensing::methods::NAMES", "game_files", "user_file"]),
+    ("scene", &["spacetime", "lensing::methods::NAMES", "breath", "game_files", "user_file"]),
     ("sim", &["argument", "spacetime", "scene", "game_files", "user_file"]),
     // The judge may look neither at the tables nor at the closed form of light.
     (
         "judge",
         &["spacetime::metric", "spacetime::matter", "spacetime::frames", "spacetime::observer", "scene", "picture_file", "user_file"],
     ),
-    ("render", &["spacetime", "lensing", "scene", "sim", "picture_file", "game_files", "user_file"]),
-    ("play", &["argument", "spacetime", "lensing", "scene", "sim", "render", "picture_file", "game_files", "user_file"]),
+    ("render", &["spacetime", "lensing", "scene", "sim", "picture_file", "breath", "page", "game_files", "user_file"]),
+    ("play", &["argument", "spacetime", "lensing", "scene", "sim", "render", "picture_file", "breath", "page", "game_files", "user_file"]),
 ];
 
 /// The one file of the judge that reads a simulated scene, and what it may import more.

@@ -72,3 +72,27 @@ export const screen = (page, name, seconds = 60) =>
     timeout: seconds * 1000,
     polling: 100,
   });
+
+// Fingers on a page, each by its number; places in pixels.
+export async function fingers(page) {
+  const session = await page.context().newCDPSession(page);
+  const down = new Map();
+  const send = (type) => {
+    const touchPoints = [...down].map(([id, [x, y]]) => ({ id, x, y }));
+    return session.send("Input.dispatchTouchEvent", { type, touchPoints });
+  };
+  return {
+    put(id, x, y) {
+      down.set(id, [x, y]);
+      return send("touchStart");
+    },
+    move(id, x, y) {
+      down.set(id, [x, y]);
+      return send("touchMove");
+    },
+    lift(id) {
+      down.delete(id);
+      return send("touchEnd");
+    },
+  };
+}

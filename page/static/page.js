@@ -95,7 +95,27 @@ for (const kind of ["keydown", "keyup"]) {
     else if (kind === "keydown" && !/^(Control|Alt|Meta)/.test(event.key)) event.stopImmediatePropagation();
   }, { capture: true });
 }
+at("egui_text_agent").addEventListener("blur", () => game.focus());
 for (const kind of ["contextmenu", "wheel"]) game.addEventListener(kind, (event) => event.preventDefault(), { passive: false });
+
+// What is kept for the game, of all that this address keeps.
+const own = (name) => name.startsWith("lensrunner/");
+
+function download(name, bytes) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([bytes]));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+async function bring(file) {
+  const kept = JSON.parse(await file.text());
+  const texts = Object.entries(kept).filter(([name, text]) => own(name) && typeof text === "string");
+  if (texts.length === 0) throw new Error("nothing of the game is in it");
+  texts.forEach(([name, text]) => localStorage.setItem(name, text));
+  location.reload();
+}
 
 // What the game asks the page for (`src/page.rs`).
 globalThis.lensrunner = {
@@ -104,12 +124,15 @@ globalThis.lensrunner = {
     sound.last = Float64Array.from(numbers);
     sound.port?.postMessage(sound.last);
   },
-  download(name, bytes) {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(new Blob([bytes]));
-    link.download = name;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+  download,
+  save_all() {
+    const kept = Object.entries(localStorage).filter(([name]) => own(name));
+    download("lensrunner.json", JSON.stringify(Object.fromEntries(kept), undefined, 1));
+  },
+  bring_all() {
+    const chooser = Object.assign(document.createElement("input"), { type: "file", accept: ".json" });
+    chooser.onchange = () => bring(chooser.files[0]).catch((error) => alert(`${say.noneOfOurs} (${error.message})`));
+    chooser.click();
   },
   share(link) {
     const address = location.origin + location.pathname + link;
@@ -124,6 +147,10 @@ globalThis.lensrunner = {
     game.focus();
     // Kept for the next time only now: it loads the same files.
     navigator.serviceWorker?.register("keep.js").catch((error) => console.warn(`The page is not kept: ${error}`));
+  },
+  by_finger: () => matchMedia("(pointer: coarse)").matches,
+  drawn() {
+    document.body.dataset.drawn = performance.now();
   },
   screen(name, won) {
     Object.assign(document.body.dataset, { screen: name, won });

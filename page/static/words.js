@@ -8,6 +8,7 @@ const words = {
     missing: "A file of the game did not arrive: load the page again.",
     memory: "The browser has not enough memory for the game: close other pages, and load this one again.",
     failed: "The game had to end: load the page again, and it begins anew. What you have won is kept.",
+    noneOfOurs: "This file holds nothing that this page has saved.",
     upright: "Turn the screen: the game is wider than high.",
   },
   ja: {
@@ -18,6 +19,7 @@ const words = {
     missing: "ゲームのファイルが届きませんでした。ページをもう一度読み込んでください。",
     memory: "ブラウザのメモリがゲームに足りません。ほかのページを閉じて、もう一度読み込んでください。",
     failed: "ゲームを続けられなくなりました。ページをもう一度読み込むと始められます。これまでの成績は残っています。",
+    noneOfOurs: "このページが保存したファイルではありません。",
     upright: "画面を横向きにしてください。ゲームは横長です。",
   },
 };

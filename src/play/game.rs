@@ -165,7 +165,11 @@ fn answer_menus(world: &mut World) {
                 world.resource_mut::<PlayerState>().same_start = true;
             }
             MenuAction::Start | MenuAction::Title => _ = world.remove_resource::<Watched>(),
-            MenuAction::Pause | MenuAction::Photo => (),
+            #[cfg(target_family = "wasm")]
+            MenuAction::SaveAll => crate::page::save_all(),
+            #[cfg(target_family = "wasm")]
+            MenuAction::BringAll => crate::page::bring_all(),
+            _ => (),
         }
         let screen = *world.resource::<State<Screen>>().get();
         if let Some((next, anew)) = answer(screen, action) {

@@ -11,8 +11,8 @@ use crate::play::words::Language;
 /// Size of the words on buttons, in radii of one.
 const LETTERS: f32 = 0.44;
 /// Under a button: what is behind it is seen.
-const GROUND: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 120);
-const HELD: Color32 = Color32::from_rgba_premultiplied(20, 60, 40, 160);
+const GROUND: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 190);
+const HELD: Color32 = Color32::from_rgba_premultiplied(16, 48, 32, 210);
 
 /// Paints them; the screen begins at the upper left corner.
 pub fn paint(painter: &Painter, touch: &TouchControls, language: Language) {

@@ -9,6 +9,7 @@ pub mod mouse;
 pub mod response;
 pub mod touch;
 
+use bevy::ecs::message::MessageUpdateSystems;
 use bevy::ecs::system::SystemParam;
 use bevy::input::InputSystems;
 use bevy::input::gamepad::{Gamepad, GamepadAxis, GamepadButton};
@@ -22,7 +23,7 @@ use crate::play::input::bindings::Bindings;
 use crate::play::input::button::{Button, Device, STICK_WAYS};
 use crate::play::input::mouse::MouseTurn;
 use crate::play::input::response::Response;
-use crate::play::input::touch::{TouchControls, read_touches};
+use crate::play::input::touch::{TouchControls, read_touches, spread_taps};
 use crate::sim::assist::Stick;
 
 /// The share of full thrust that the keys give without boost.
@@ -42,6 +43,7 @@ impl Plugin for ControlsPlugin {
             .init_resource::<AccumulatedMouseMotion>()
             .init_resource::<TouchControls>()
             .add_message::<TouchInput>()
+            .add_systems(First, spread_taps.after(MessageUpdateSystems))
             .add_systems(PreUpdate, ((read_touches, note_sticks, note_taps, take_taps).chain(), note_device).after(InputSystems));
     }
 }

@@ -12,7 +12,7 @@ use crate::play::input::mouse::MouseTurn;
 use crate::play::menus::screens::Screen;
 use crate::play::player_state::PlayerState;
 use crate::play::session::Session;
-use crate::play::window::interface::points_of;
+use crate::play::window::points::points_of;
 
 /// Radius of a button, in points, and the least in logical pixels: a target for a finger is 44 wide.
 const BUTTON: (f32, f32) = (27.0, 24.0);
@@ -249,6 +249,24 @@ impl TouchControls {
     }
 }
 
+/// Has what began and ended within a frame end in the next: a menu must see it held to take it for a tap.
+pub(super) fn spread_taps(mut news: ResMut<Messages<TouchInput>>, mut later: Local<Vec<TouchInput>>) {
+    let all: Vec<TouchInput> = later.drain(..).chain(news.drain()).collect();
+    let mut begun = Vec::new();
+    for touch in all {
+        let ends = matches!(touch.phase, TouchPhase::Ended | TouchPhase::Canceled);
+        let waits = later.iter().any(|other| other.id == touch.id) || (ends && begun.contains(&touch.id));
+        if touch.phase == TouchPhase::Started {
+            begun.push(touch.id);
+        }
+        if waits {
+            later.push(touch);
+        } else {
+            news.write(touch);
+        }
+    }
+}
+
 /// Reads the fingers. In play alone: menus have them otherwise.
 pub(super) fn read_touches(
     mut news: MessageReader<TouchInput>,
@@ -284,5 +302,90 @@ pub(super) fn read_touches(
         ([(one, from)], [(same, to)]) if one == same => turn.push((*to - *from) * pixels, &session.config),
         ([a, b], [c, d]) if (a.0, b.0) == (c.0, d.0) && c.1 != d.1 => touch.pinch = Some(a.1.distance(b.1) / c.1.distance(d.1)),
         _ => (),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::play::input::ControlsPlugin;
+    use bevy::input::InputPlugin;
+
+    const SIZE: Vec2 = Vec2::new(1180.0, 820.0);
+
+    /// Controls for fingers with a target's marker in the middle.
+    fn controls() -> TouchControls {
+        TouchControls { layout: TouchLayout::new(SIZE, 1.0, true), target: Some(0.5 * SIZE), ..TouchControls::default() }
+    }
+
+    #[test]
+    fn all_that_fingers_meet_is_wide_enough_and_apart() {
+        for (size, pixels) in [(SIZE, 1.0), (Vec2::new(1340.0, 620.0), 0.63), (Vec2::new(900.0, 620.0), 1.0)] {
+            let layout = TouchLayout::new(size, pixels, true);
+            assert!(2.0 * layout.radius * pixels >= 44.0);
+            for (k, button) in layout.buttons.iter().enumerate() {
+                let inside = button.middle.cmpge(Vec2::splat(layout.radius)).all() && (button.middle + layout.radius).cmple(size).all();
+                assert!(inside, "{size}: {button:?}");
+                assert_eq!(layout.button(button.middle), Some(button.action));
+                for other in &layout.buttons[..k] {
+                    assert!(button.middle.distance(other.middle) >= 2.0 * layout.radius, "{size}: {button:?} {other:?}");
+                }
+                let apart = layout.sticks.iter().all(|stick| stick.distance(button.middle) > (REACH + 1.0) * layout.radius);
+                assert!(apart, "{size}: {button:?} lies on a stick");
+            }
+        }
+    }
+
+    #[test]
+    fn two_sticks_and_a_button_at_once() {
+        let mut touch = controls();
+        let [left, right] = touch.layout.sticks;
+        let nose = touch.layout.buttons.iter().find(|button| button.action == Action::FaceTarget).expect("there").middle;
+        touch.hear(TouchPhase::Started, 1, left, 0.0, 1.0);
+        touch.hear(TouchPhase::Started, 2, right, 0.0, 1.0);
+        touch.hear(TouchPhase::Started, 3, nose, 0.0, 1.0);
+        touch.hear(TouchPhase::Moved, 1, left - Vec2::Y * 300.0, 0.1, 1.0);
+        touch.hear(TouchPhase::Moved, 2, right + Vec2::X * 0.5 * REACH * touch.layout.radius, 0.1, 1.0);
+        touch.settle();
+        assert_eq!(touch.partly(Action::ThrustForward), 1.0);
+        assert!((0.3..0.5).contains(&touch.partly(Action::YawRight)) && touch.partly(Action::PitchUp) == 0.0);
+        assert!(touch.holds(Action::FaceTarget) && touch.pushed(Action::FaceTarget));
+        for id in 1..=3 {
+            touch.hear(TouchPhase::Ended, id, left, 0.2, 1.0);
+        }
+        touch.settle();
+        assert!(touch.sticks == [Vec2::ZERO; 2] && !touch.holds(Action::FaceTarget));
+    }
+
+    #[test]
+    fn a_tap_on_the_target_looks_there_until_the_next() {
+        let mut touch = controls();
+        let mut tap = |at: Vec2, seconds: f64| {
+            touch.hear(TouchPhase::Started, 1, at, 0.0, 1.0);
+            touch.hear(TouchPhase::Ended, 1, at, seconds, 1.0);
+            touch.holds(Action::LookAtTarget)
+        };
+        let middle = 0.5 * SIZE;
+        let found = [tap(middle + 60.0, 0.1), tap(middle + 20.0, 0.5), tap(middle + 20.0, 0.1), tap(middle, 0.1)];
+        assert_eq!(found, [false, false, true, false]);
+    }
+
+    /// In a long frame a finger may come and go.
+    #[test]
+    fn a_tap_within_a_frame_is_held_in_one_and_gone_in_the_next() {
+        let mut app = App::new();
+        app.add_plugins((MinimalPlugins, InputPlugin, ControlsPlugin));
+        let touch = |phase| TouchInput { phase, position: Vec2::ONE, window: Entity::PLACEHOLDER, force: None, id: 7 };
+        for phase in [TouchPhase::Started, TouchPhase::Moved, TouchPhase::Ended, TouchPhase::Started, TouchPhase::Ended] {
+            app.world_mut().write_message(touch(phase));
+        }
+        let seen: Vec<(bool, bool)> = (0..4)
+            .map(|_| {
+                app.update();
+                let touches = app.world().resource::<Touches>();
+                (touches.iter().next().is_some(), touches.iter_just_released().next().is_some())
+            })
+            .collect();
+        assert_eq!(seen, [(true, false), (true, true), (false, true), (false, false)]);
     }
 }

@@ -175,6 +175,17 @@ pub fn settings_of(page: Page) -> &'static [&'static str] {
 /// What light does, each to be left out.
 pub const SWITCHES: [&str; 5] = ["render.lensing", "render.doppler", "render.beaming", "render.light_delay", "render.orders"];
 
+/// What a page keeps in the browser goes to a file and back; elsewhere there are files.
+fn kept(language: Language) -> Vec<Entry> {
+    if !cfg!(target_family = "wasm") {
+        return Vec::new();
+    }
+    vec![
+        ask(language, "save-all", "menu-save-all", MenuAction::SaveAll),
+        ask(language, "bring-all", "menu-bring-all", MenuAction::BringAll),
+    ]
+}
+
 fn of_page(page: Page, session: &Session, menu: &Menu) -> Vec<Entry> {
     let language = session.language();
     let mut entries = match page {
@@ -185,7 +196,10 @@ fn of_page(page: Page, session: &Session, menu: &Menu) -> Vec<Entry> {
             open(language, "buttons", "menu-buttons", Page::Buttons),
             open(language, "accessibility", "menu-accessibility", Page::Accessibility),
             open(language, "language", "menu-language", Page::Language),
-        ],
+        ]
+        .into_iter()
+        .chain(kept(language))
+        .collect(),
         Page::Buttons => buttons(session, menu),
         Page::Manual(card) => vec![
             Entry::new("next-card", language.say("menu-next-card"), Does::Card((card + 1) % manual::CARDS)),

@@ -57,6 +57,10 @@ pub enum MenuAction {
     Photo,
     /// Back to the title; from the warning on to it.
     Title,
+    /// All that a page keeps, as one file.
+    SaveAll,
+    /// Such a file again.
+    BringAll,
     /// Out.
     Quit,
 }

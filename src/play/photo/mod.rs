@@ -44,15 +44,7 @@ fn begin(shot: Option<Res<CurrentShot>>, session: Res<Session>, mut actions: Mes
         return;
     };
     let bloom = session.config.render.bloom;
-    commands.insert_resource(Photo {
-        camera: FreeCamera::at(frame.camera),
-        frame,
-        stops: 0.0,
-        bloom,
-        size: 0,
-        panel: true,
-        makes_way: false,
-    });
+    commands.insert_resource(Photo { camera: FreeCamera::at(frame.camera), frame, stops: 0.0, bloom, size: 0, panel: true, makes_way: 0 });
 }
 
 fn end(mut commands: Commands) {
@@ -114,13 +106,16 @@ pub fn turn_to(world: &mut World, knob: PhotoKnob, share: f64) {
     }
 }
 
+/// After so many frames a picture has been taken.
+const PICTURED: u32 = 3;
+
 /// A knob is pressed.
 pub fn press(world: &mut World, knob: PhotoKnob) {
     match knob {
         // A page has no program to draw another size: what is on the screen is saved.
         PhotoKnob::Save if cfg!(target_family = "wasm") => {
             if let Some(mut photo) = world.get_resource_mut::<Photo>() {
-                (photo.makes_way, photo.panel) = (true, false);
+                (photo.makes_way, photo.panel) = (PICTURED, false);
             }
             record::screenshot(world);
         }
@@ -157,6 +152,10 @@ fn lead(
     const RATES: (f64, f64) = (0.12, 1.0);
     if input.pushed(Action::ToggleHud) {
         photo.panel = !photo.panel;
+    }
+    if photo.makes_way > 0 {
+        photo.makes_way -= 1;
+        photo.panel |= photo.makes_way == 0;
     }
     let seconds = real.delta_secs_f64().min(0.1);
     let stick = input.stick();

@@ -33,8 +33,8 @@ pub struct Photo {
     pub(super) size: usize,
     /// The panel is shown.
     pub panel: bool,
-    /// It is off until a picture without it has been taken.
-    pub makes_way: bool,
+    /// For so many frames it is off, for a picture without it.
+    pub makes_way: u32,
 }
 
 impl Photo {
@@ -117,7 +117,7 @@ mod tests {
             field_of_view: 1.0,
         };
         let frame = FrameCamera { camera, hidden: Some(0), lit: Some(0) };
-        let mut photo = Photo { camera: FreeCamera::at(camera), frame, stops: 0.0, bloom: 0.3, size: 0, panel: true, makes_way: false };
+        let mut photo = Photo { camera: FreeCamera::at(camera), frame, stops: 0.0, bloom: 0.3, size: 0, panel: true, makes_way: 0 };
         assert_eq!(photo.frame().hidden, Some(0));
         for knob in [PhotoKnob::FieldOfView, PhotoKnob::Exposure, PhotoKnob::Bloom, PhotoKnob::Motion, PhotoKnob::Size] {
             for by in [1, -1] {

@@ -23,6 +23,7 @@ use crate::play::photo::Photo;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::session::Session;
+use crate::play::window::points::points_of;
 use crate::play::words::font;
 use crate::render::job::Wake;
 use crate::scene::config::Video;
@@ -61,20 +62,11 @@ fn spawn_camera(target: Res<Target>, mut images: ResMut<Assets<Image>>, mut comm
     }
 }
 
-/// In a window lower or narrower than this (logical pixels) the interface shrinks with it: the HUD is laid out for it.
-const INTERFACE: [f32; 2] = [900.0, 620.0];
-
 /// In a window lower or narrower than this (logical pixels) there is no room for a card.
 const NO_ROOM: f32 = 100.0;
 
 /// What a finger can meet, in logical pixels.
 const FINGER: f32 = 44.0;
-
-/// How many logical pixels a point of the interface has.
-pub(in crate::play) fn points_of(window: &Window, session: &Session) -> f32 {
-    let fit = (window.width() / INTERFACE[0]).min(window.height() / INTERFACE[1]).clamp(0.35, 1.0);
-    fit * session.config.accessibility.text_size as f32
-}
 
 /// Gives the interface its letters, its size and its colours.
 fn fit_interface(

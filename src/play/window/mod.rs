@@ -6,6 +6,7 @@ pub mod lost;
 #[cfg(target_family = "wasm")]
 mod page;
 pub mod pictures;
+pub mod points;
 pub mod record;
 pub mod timings;
 
@@ -122,7 +123,12 @@ async fn app_in_steps(mut session: Session, options: &Options, surface: OutputSu
     let log = LogPlugin {
         // What libraries warn of means nothing to a player; RUST_LOG shows it. A device or a window that is lost is said by `lost`.
         filter: "error,bevy_render::error_handler=off,bevy_render::view::window=off,lensrunner=".to_owned()
-            + if options.verbose { "debug" } else { "info" },
+            + match options.verbose {
+                true => "debug",
+                // A page says on the screen what there is to say.
+                false if cfg!(target_family = "wasm") => "warn",
+                false => "info",
+            },
         level: bevy::log::Level::WARN,
         // As `warn_on_stderr` has it.
         fmt_layer: |_| {
@@ -135,10 +141,10 @@ async fn app_in_steps(mut session: Session, options: &Options, surface: OutputSu
     let governed = matches!(surface, OutputSurface::Window) || options.timings.is_some();
     let window = WindowPlugin { primary_window: Some(window(&session, options, &surface)), ..default() };
     // Apart: it takes as long as all the others.
-    let default = DefaultPlugins.build().disable::<CorePipelinePlugin>().set(window);
+    let plugins = DefaultPlugins.build().disable::<CorePipelinePlugin>().set(window);
     match surface {
-        OutputSurface::Window => app.add_plugins(default.set(log)),
-        OutputSurface::Picture(_) => app.add_plugins(default.disable::<WinitPlugin>().disable::<LogPlugin>()),
+        OutputSurface::Window => app.add_plugins(plugins.set(log)),
+        OutputSurface::Picture(_) => app.add_plugins(plugins.disable::<WinitPlugin>().disable::<LogPlugin>()),
     };
     breath().await;
     app.add_plugins(CorePipelinePlugin);

@@ -3,8 +3,10 @@
 use bevy::prelude::*;
 
 use crate::page;
+use crate::play::input::button::Device;
 use crate::play::menus::screens::Screen;
 use crate::play::missions::LastFlight;
+use crate::play::picture::stage_loading::CurrentStage;
 
 /// After so many frames one is on the page.
 const FRAMES_BEFORE_BEGUN: u32 = 2;
@@ -14,7 +16,10 @@ pub(super) struct PagePlugin;
 
 impl Plugin for PagePlugin {
     fn build(&self, app: &mut App) {
-        app.add_systems(Last, (begun, shown.run_if(state_changed::<Screen>)));
+        if page::by_finger() {
+            app.insert_resource(Device::Touch);
+        }
+        app.add_systems(Last, (begun, shown.run_if(state_changed::<Screen>), page::drawn.run_if(resource_added::<CurrentStage>)));
     }
 }
 

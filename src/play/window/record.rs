@@ -9,7 +9,6 @@ use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 
 use crate::picture_file::png;
 use crate::play::hud::notice::Notice;
-use crate::play::photo::Photo;
 use crate::play::picture::snapshot::snapshot;
 use crate::play::picture::stage_loading::CurrentStage;
 use crate::play::window::pictures::{folders, save_new, stem};
@@ -60,13 +59,9 @@ impl Plugin for RecordPlugin {
 const SHOWN: f64 = 4.0;
 
 /// Says, on the screen and in the log, where a picture is or why there is none.
-fn notify(news: Res<News>, real: Res<Time<Real>>, mut notice: ResMut<Notice>, mut photo: Option<ResMut<Photo>>) {
+fn notify(news: Res<News>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
     let Ok(receiver) = news.receiver.lock() else { return };
     for result in receiver.try_iter() {
-        // A panel that made way for the picture is back.
-        if let Some(photo) = photo.as_mut().filter(|photo| photo.makes_way) {
-            (photo.makes_way, photo.panel) = (false, true);
-        }
         let text = match &result {
             Ok((path, None)) => format!("picture written to {}", path.display()),
             Ok((path, Some(why))) => format!("picture written to {}, without its moment: {why}", path.display()),
