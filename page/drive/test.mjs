@@ -84,6 +84,21 @@ try {
     await page.reload();
     await screen(page, "title");
   });
+  await play("by mouse: it belongs to the ship, until Esc", {}, async (page) => {
+    await screen(page, "warning");
+    await press(page, "Enter", "Enter");
+    await screen(page, "playing");
+    await page.waitForFunction(() => document.pointerLockElement?.id === "game");
+    await page.mouse.move(300, 200);
+    await page.mouse.move(340, 190, { steps: 5 });
+    // As the browser does it.
+    await page.evaluate(() => Document.prototype.exitPointerLock.call(document));
+    await screen(page, "paused");
+    await press(page, "F11");
+    await page.waitForFunction(() => document.fullscreenElement);
+    await press(page, "F11");
+    await page.waitForFunction(() => !document.fullscreenElement);
+  });
   const tablet = { hasTouch: true, isMobile: true, viewport: { width: 1180, height: 820 } };
   await play("by fingers: training begun, flown and paused", tablet, async (page) => {
     const touch = await fingers(page);

@@ -3,6 +3,7 @@
 
 #[path = "../../src/inside.rs"]
 mod inside;
+mod picture;
 
 use std::path::Path;
 
@@ -28,11 +29,7 @@ const KEYS: [&str; 2] = ["controls.thrust_down=KeyX PadLeftBumper", "controls.sc
 /// are not as they were built. `address`: the end of the page's, which may be a flight to show.
 #[wasm_bindgen]
 pub async fn play(table: Vec<u8>, shaders: String, address: String) -> Result<(), JsError> {
-    lensrunner::page::say_panics();
-    let table = packed::unpack(&table).ok_or_else(|| JsError::new("the table is damaged"))?;
-    let table: &'static [u8] = table.leak();
-    lensrunner::game_files::embed(inside::FILES.iter().copied().chain([(TABLE, table)]));
-    shaders::bring(serde_json::from_str(&shaders)?);
+    bring(&table, &shaders)?;
     breath().await;
     let mut options = Options::default();
     if address.contains(MARK) {
@@ -53,6 +50,16 @@ pub async fn play(table: Vec<u8>, shaders: String, address: String) -> Result<()
     // It goes on after this: the page calls it for each frame.
     breath().await;
     prepared(session, &options).await.run();
+    Ok(())
+}
+
+/// The game's own files, once.
+fn bring(table: &[u8], shaders: &str) -> Result<(), JsError> {
+    lensrunner::page::say_panics();
+    let table = packed::unpack(table).ok_or_else(|| JsError::new("the table is damaged"))?;
+    let table: &'static [u8] = table.leak();
+    lensrunner::game_files::embed(inside::FILES.iter().copied().chain([(TABLE, table)]));
+    shaders::bring(serde_json::from_str(shaders)?);
     Ok(())
 }
 

@@ -98,6 +98,30 @@ for (const kind of ["keydown", "keyup"]) {
 at("egui_text_agent").addEventListener("blur", () => game.focus());
 for (const kind of ["contextmenu", "wheel"]) game.addEventListener(kind, (event) => event.preventDefault(), { passive: false });
 
+// The mouse belongs to the game as long as the game wants it. A browser refuses it for a moment after Esc, and without a gesture: then the
+// next click asks again. Esc gives the mouse back, and many browsers do not tell the page: that is a pause.
+const mouse = { wanted: false, lock: game.requestPointerLock.bind(game), unlock: document.exitPointerLock.bind(document) };
+game.requestPointerLock = (options) => {
+  mouse.wanted = true;
+  Promise.resolve(mouse.lock(options)).catch(() => undefined);
+};
+document.exitPointerLock = () => {
+  mouse.wanted = false;
+  mouse.unlock();
+};
+game.addEventListener("pointerdown", ({ pointerType }) => {
+  if (mouse.wanted && pointerType === "mouse" && !document.pointerLockElement) game.requestPointerLock();
+});
+function pause() {
+  if (document.body.dataset.screen !== "playing" || document.pointerLockElement) return;
+  const key = (kind) => new KeyboardEvent(kind, { code: "Escape", key: "Escape", bubbles: true });
+  for (const kind of ["keydown", "keyup"]) game.dispatchEvent(key(kind));
+}
+document.addEventListener("pointerlockchange", () => {
+  // Long enough for the game to hear of Esc by itself.
+  if (mouse.wanted && !document.pointerLockElement) setTimeout(pause, 500);
+});
+
 // What is kept for the game, of all that this address keeps.
 const own = (name) => name.startsWith("lensrunner/");
 

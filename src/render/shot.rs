@@ -14,6 +14,7 @@ pub use crate::sim::Moment;
 use crate::sim::snapshot::Snapshot;
 
 use crate::render::frame::FrameInput;
+use crate::render::gpu::device::{OPTIONAL, wait};
 use crate::render::gpu::readback::{PictureError, ReadbackPicture};
 use crate::render::gpu::types::Star;
 use crate::render::renderer::{Renderer, Surroundings};
@@ -91,20 +92,26 @@ fn star(star: &scene::sky::stars::Star) -> Star {
 
 /// Draws the picture.
 pub fn shot(request: &ShotRequest, config: &GameConfig) -> Result<ReadbackPicture, ShotError> {
+    wait(shot_later(request, config))
+}
+
+/// The same, where one cannot wait.
+pub async fn shot_later(request: &ShotRequest<'_>, config: &GameConfig) -> Result<ReadbackPicture, ShotError> {
     if !(0.0..=1e5).contains(&request.at) {
         return Err(ShotError::Time(request.at));
     }
     let scene = scene::load(request.scene)?;
-    let gpu = Gpu::headless()?;
+    let gpu = Gpu::open(OPTIONAL).await?;
     let mut renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, request.size);
-    let mut stage = Stage::new(&mut renderer, &scene, config);
+    let (mut stage, upload) = Stage::prepare(renderer.table(), &scene, scene.assemble(config), config, None).await;
+    renderer.upload(&upload);
     let moment = Moment::new(&scene, config, request.at, 0);
     scene.camera.check(moment.time(), &moment.ships())?;
     let camera = stage.camera(moment.time(), &moment.ships());
     let own_ship = scene.ships.iter().position(|ship| ship.player).filter(|_| request.fill);
     let settings = Settings { own_ship, ..settings(config) };
     let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings);
-    complete(&mut renderer, &frame, request.layers)
+    complete(&mut renderer, &frame, request.layers).await
 }
 
 /// Draws the moment of a picture of the game again, in `size` pixels. `fill`: the player's ship is lit as the game does it; not so where
@@ -117,13 +124,13 @@ pub fn shot_again(snapshot: &Snapshot, moment: &Moment, size: [u32; 2], layers: 
     let settings =
         Settings { own_ship: shot.lit.filter(|_| fill), engines: Some([config.ship.thrust, config.enemy.thrust]), ..settings(&config) };
     let frame = stage.frame(shot.camera, size, snapshot.time, &moment.all_histories(), shot.hidden, &settings);
-    complete(&mut renderer, &frame, layers)
+    wait(complete(&mut renderer, &frame, layers))
 }
 
 /// The picture; what it lacks is said in the log.
-fn complete(renderer: &mut Renderer, frame: &FrameInput, layers: bool) -> Result<ReadbackPicture, ShotError> {
-    let picture = renderer.picture(frame, layers)?;
-    if let Some(complaint) = renderer.counters()?.complaint() {
+async fn complete(renderer: &mut Renderer, frame: &FrameInput, layers: bool) -> Result<ReadbackPicture, ShotError> {
+    let picture = renderer.picture_later(frame, layers).await?;
+    if let Some(complaint) = renderer.counters_later().await?.complaint() {
         warn!("the picture is not complete: {complaint}");
     }
     Ok(picture)

@@ -250,9 +250,11 @@ impl TouchControls {
 }
 
 /// Has what began and ended within a frame end in the next: a menu must see it held to take it for a tap.
-pub(super) fn spread_taps(mut news: ResMut<Messages<TouchInput>>, mut later: Local<Vec<TouchInput>>) {
-    let all: Vec<TouchInput> = later.drain(..).chain(news.drain()).collect();
+pub(super) fn spread_taps(mut news: ResMut<Messages<TouchInput>>, mut later: Local<Vec<TouchInput>>, mut written: Local<usize>) {
+    // Those of the last frame are still there.
+    let all: Vec<TouchInput> = later.drain(..).chain(news.drain().skip(*written)).collect();
     let mut begun = Vec::new();
+    *written = 0;
     for touch in all {
         let ends = matches!(touch.phase, TouchPhase::Ended | TouchPhase::Canceled);
         let waits = later.iter().any(|other| other.id == touch.id) || (ends && begun.contains(&touch.id));
@@ -263,6 +265,7 @@ pub(super) fn spread_taps(mut news: ResMut<Messages<TouchInput>>, mut later: Loc
             later.push(touch);
         } else {
             news.write(touch);
+            *written += 1;
         }
     }
 }

@@ -65,6 +65,8 @@ fn spawn_camera(target: Res<Target>, mut images: ResMut<Assets<Image>>, mut comm
 /// In a window lower or narrower than this (logical pixels) there is no room for a card.
 const NO_ROOM: f32 = 100.0;
 
+/// A click that takes longer, in seconds, is none: some frames where they are slow.
+const LONGEST_CLICK: f64 = 3.0;
 /// What a finger can meet, in logical pixels.
 const FINGER: f32 = 44.0;
 
@@ -79,6 +81,7 @@ fn fit_interface(
     let Ok(context) = contexts.ctx_mut() else { return };
     if !std::mem::replace(&mut *has_letters, true) {
         font::install(context);
+        context.options_mut(|options| options.input_options.max_click_duration = LONGEST_CLICK);
     }
     let settings = &session.config.accessibility;
     Palette::of(settings).put(context);

@@ -39,7 +39,7 @@ fn minimum() -> wgpu::Limits {
 
 /// Features that are used where the adapter has them: times and fragments of passes, tables sampled and the aurora added up in 32-bit
 /// floats.
-const OPTIONAL: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY
+pub(in crate::render) const OPTIONAL: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY
     .union(wgpu::Features::PIPELINE_STATISTICS_QUERY)
     .union(wgpu::Features::FLOAT32_FILTERABLE)
     .union(wgpu::Features::FLOAT32_BLENDABLE);
@@ -120,27 +120,30 @@ impl Gpu {
 
     /// The same with no more of its optional features than these.
     pub fn headless_with(optional: wgpu::Features) -> Result<Gpu, DeviceError> {
+        wait(Gpu::open(optional))
+    }
+
+    /// The same, where one cannot wait.
+    pub async fn open(optional: wgpu::Features) -> Result<Gpu, DeviceError> {
         let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
         // As Bevy's: the arguments of indirect calls are made by shaders of ours. `./test` has them checked.
         descriptor.flags = (wgpu::InstanceFlags::default() - wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL).with_env();
         let instance = wgpu::Instance::new(descriptor);
-        let adapter = wait(instance.request_adapter(&wgpu::RequestAdapterOptions {
-            power_preference: wgpu::PowerPreference::HighPerformance,
-            ..Default::default()
-        }))
-        .map_err(DeviceError::NoAdapter)?;
+        let options = wgpu::RequestAdapterOptions { power_preference: wgpu::PowerPreference::HighPerformance, ..Default::default() };
+        let adapter = instance.request_adapter(&options).await.map_err(DeviceError::NoAdapter)?;
         let info = adapter.get_info();
         let limits = adapter.limits();
         if let Some(needs) = missing_limits(&limits) {
             return Err(DeviceError::TooSmall { adapter: info.name, needs });
         }
-        let (device, queue) = wait(adapter.request_device(&wgpu::DeviceDescriptor {
+        let descriptor = wgpu::DeviceDescriptor {
             label: Some("lensrunner"),
             required_features: adapter.features() & optional,
             required_limits: required(&limits),
             ..Default::default()
-        }))
-        .map_err(|source| DeviceError::NoDevice { adapter: info.name.clone(), source })?;
+        };
+        let opened = adapter.request_device(&descriptor).await;
+        let (device, queue) = opened.map_err(|source| DeviceError::NoDevice { adapter: info.name.clone(), source })?;
         let watch = Watch::over(&device);
         Ok(Gpu { device, queue, adapter: info, watch })
     }

@@ -1,11 +1,14 @@
 //! Bringing pictures and buffers back from the GPU, and writing pictures to files.
 
 use std::path::Path;
+use std::sync::mpsc::TryRecvError;
 
 use thiserror::Error;
 
+use crate::breath::breath;
 use crate::picture_file;
 use crate::render::Gpu;
+use crate::render::gpu::device::wait;
 use crate::user_file::write_whole;
 
 /// Why a picture could not be written.
@@ -35,6 +38,11 @@ pub enum PictureError {
 
 /// The bytes of a buffer.
 pub fn buffer(gpu: &Gpu, source: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
+    wait(buffer_later(gpu, source))
+}
+
+/// The same, where one cannot wait.
+pub async fn buffer_later(gpu: &Gpu, source: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
     let copy = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("read back"),
         size: source.size(),
@@ -44,11 +52,16 @@ pub fn buffer(gpu: &Gpu, source: &wgpu::Buffer) -> Result<Vec<u8>, PictureError>
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     encoder.copy_buffer_to_buffer(source, 0, &copy, 0, source.size());
     gpu.queue.submit([encoder.finish()]);
-    map(gpu, &copy)
+    map(gpu, &copy).await
 }
 
 /// The texels of a texture of `bytes` bytes a texel, row by row from the top.
 pub fn texture(gpu: &Gpu, source: &wgpu::Texture, bytes: u32) -> Result<Vec<u8>, PictureError> {
+    wait(texture_later(gpu, source, bytes))
+}
+
+/// The same, where one cannot wait.
+pub async fn texture_later(gpu: &Gpu, source: &wgpu::Texture, bytes: u32) -> Result<Vec<u8>, PictureError> {
     let (width, height) = (source.width(), source.height());
     // Rows of a copy start at multiples of 256 bytes.
     let row = (width * bytes).next_multiple_of(256);
@@ -68,21 +81,21 @@ pub fn texture(gpu: &Gpu, source: &wgpu::Texture, bytes: u32) -> Result<Vec<u8>,
         source.size(),
     );
     gpu.queue.submit([encoder.finish()]);
-    let padded = map(gpu, &copy)?;
+    let padded = map(gpu, &copy).await?;
     Ok(padded.chunks_exact(row as usize).flat_map(|line| &line[..(width * bytes) as usize]).copied().collect())
 }
 
 /// The texels of a texture of four 32-bit floats a texel.
-pub fn floats(gpu: &Gpu, source: &wgpu::Texture) -> Result<Vec<[f32; 4]>, PictureError> {
-    let bytes = texture(gpu, source, 16)?;
+pub async fn floats(gpu: &Gpu, source: &wgpu::Texture) -> Result<Vec<[f32; 4]>, PictureError> {
+    let bytes = texture_later(gpu, source, 16).await?;
     Ok(bytes.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect())
 }
 
-fn map(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
-    mapped(gpu, copy).map_err(|error| gpu.watch.complaint().map_or(error, PictureError::Device))
+async fn map(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
+    mapped(gpu, copy).await.map_err(|error| gpu.watch.complaint().map_or(error, PictureError::Device))
 }
 
-fn mapped(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
+async fn mapped(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
     if let Some(complaint) = gpu.watch.complaint() {
         return Err(PictureError::Device(complaint));
     }
@@ -92,7 +105,14 @@ fn mapped(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
         let _ = send.send(result);
     });
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
-    receive.recv().map_err(|error| PictureError::Map(error.to_string()))?.map_err(|error| PictureError::Map(error.to_string()))?;
+    // After that it has come, but in a page, which does not wait in `poll`.
+    let come = loop {
+        match receive.try_recv() {
+            Err(TryRecvError::Empty) if cfg!(target_family = "wasm") => breath().await,
+            other => break other.map_err(|error| PictureError::Map(error.to_string()))?,
+        }
+    };
+    come.map_err(|error| PictureError::Map(error.to_string()))?;
     let bytes = copy.slice(..).get_mapped_range().to_vec();
     copy.unmap();
     Ok(bytes)

@@ -32,6 +32,7 @@ use crate::render::frame::{FrameInput, blackbody_table};
 use crate::render::geometry::Geometry;
 use crate::render::geometry::lists::BodyLists;
 use crate::render::geometry::thin::ThinLists;
+use crate::render::gpu::device::wait;
 use crate::render::gpu::layout::{Slot, TableTexture, buffer, layout, storage};
 use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::readback::{self, DeferredCopy, PictureError};
@@ -293,7 +294,12 @@ impl Renderer {
 
     /// What the stages of geometry counted in the last frame.
     pub fn counters(&self) -> Result<Counters, PictureError> {
-        let bytes = readback::buffer(&self.gpu, self.geometry.counters())?;
+        wait(self.counters_later())
+    }
+
+    /// The same, where one cannot wait.
+    pub async fn counters_later(&self) -> Result<Counters, PictureError> {
+        let bytes = readback::buffer_later(&self.gpu, self.geometry.counters()).await?;
         Ok(first_of(&bytes))
     }
 

@@ -2,6 +2,7 @@
 
 use crate::render::disk::DiskPasses;
 use crate::render::frame::FrameInput;
+use crate::render::gpu::device::wait;
 use crate::render::gpu::readback::{self, PictureError, ReadbackPicture};
 use crate::render::gpu::targets::target;
 use crate::render::passes::{begin_thin, colour, depth};
@@ -12,6 +13,11 @@ impl Renderer {
     /// Draws one frame into a texture of its own and brings it back. The exposure settles first: the frame is drawn twice. Of a frame that
     /// is drawn smaller than the output there is the finished picture alone.
     pub fn picture(&mut self, input: &FrameInput, layers: bool) -> Result<ReadbackPicture, PictureError> {
+        wait(self.picture_later(input, layers))
+    }
+
+    /// The same, where one cannot wait.
+    pub async fn picture_later(&mut self, input: &FrameInput, layers: bool) -> Result<ReadbackPicture, PictureError> {
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
         let (texture, view) = target(&self.gpu.device, "output", self.output.0, format);
         // A picture does not depend on those before it.
@@ -28,22 +34,24 @@ impl Renderer {
             }
             self.gpu.queue.submit([encoder.finish()]);
         }
-        let display = readback::texture(&self.gpu, &texture, 4)?;
+        let display = readback::texture_later(&self.gpu, &texture, 4).await?;
         if self.upscale.drawn().is_some() {
             return Ok(ReadbackPicture { size: self.output.0, display, ..ReadbackPicture::default() });
         }
-        let halves = readback::texture(&self.gpu, &self.targets.picture_texture, 8)?;
+        let halves = readback::texture_later(&self.gpu, &self.targets.picture_texture, 8).await?;
         let linear = halves
             .chunks_exact(8)
             .map(|texel| std::array::from_fn(|k| half::f16::from_le_bytes([texel[2 * k], texel[2 * k + 1]]).to_f32()))
             .collect();
         let (layers, surface) = match &self.targets.layers {
-            Some(targets) if layers => (readback::floats(&self.gpu, &targets.what.0)?, readback::floats(&self.gpu, &targets.surface.0)?),
+            Some(targets) if layers => {
+                (readback::floats(&self.gpu, &targets.what.0).await?, readback::floats(&self.gpu, &targets.surface.0).await?)
+            }
             _ => Default::default(),
         };
         let thin = if !layers.is_empty() && self.geometry.has_thin() {
-            let sums = readback::texture(&self.gpu, &self.targets.thin_texture, 8)?;
-            let signed = readback::texture(&self.gpu, &self.targets.thin_signed_texture, 4)?;
+            let sums = readback::texture_later(&self.gpu, &self.targets.thin_texture, 8).await?;
+            let signed = readback::texture_later(&self.gpu, &self.targets.thin_signed_texture, 4).await?;
             let number = |bytes: &[u8]| half::f16::from_le_bytes([bytes[0], bytes[1]]).to_f32();
             sums.chunks_exact(8).zip(signed.chunks_exact(4)).map(|(sum, signed)| covered(number(&sum[6..]), number(signed))).collect()
         } else {
