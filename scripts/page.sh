@@ -30,7 +30,7 @@ has_page_library() { [ -d "$(rustc --print sysroot)/lib/rustlib/$page_target/lib
 
 if ! has_page_library && command -v rustup >/dev/null; then
   echo "Fetching the standard library for $page_target" >&2
-  timeout 300 rustup target add "$page_target" >/dev/null 2>&1 || true
+  timeout 300 rustup target add "$page_target" >/dev/null 2>&1 || echo "rustup could not fetch it" >&2
 fi
 if ! has_page_library; then
   # Debian has a newer compiler with its sources; the library is built from them once.

@@ -21,6 +21,9 @@ extern "C" {
     /// Whether the first thing that points here is a finger.
     pub fn by_finger() -> bool;
 
+    /// What moves the game from now on: `keyboard`, `pad`, `touch`.
+    pub fn hands(name: &str);
+
     /// A scene is drawn from now on.
     pub fn drawn();
 

@@ -120,6 +120,8 @@ try {
     await touch.put(2, 1090, 430);
     await touch.move(2, 1120, 430);
     await page.waitForFunction(() => globalThis.lensrunnerSound.last[1] > 0.5);
+    await page.waitForTimeout(2 * FRAME);
+    assert.equal(await page.evaluate(() => document.body.dataset.hands), "touch", "a finger that moves is no mouse");
     await touch.lift(1);
     await touch.lift(2);
     await page.waitForFunction(() => globalThis.lensrunnerSound.last[1] < 0.5);
@@ -139,6 +141,9 @@ try {
     assert.equal(await page.evaluate(() => location.hash), "", "a flight that was opened is opened once");
     await openAt(links.forged);
     await screen(page, "title");
+    // Pasted into the address of a game that runs.
+    await page.evaluate((link) => (location.hash = link), links.flight);
+    await screen(page, "playing");
   });
   await play("refusals: without WebGPU, without an adapter, without a file", {}, async (page, browser) => {
     const refused = async (prepare, sentence) => {
@@ -152,6 +157,13 @@ try {
     await refused((other) => other.addInitScript(() => delete Navigator.prototype.gpu), "has no WebGPU");
     await refused((other) => other.addInitScript(() => (GPU.prototype.requestAdapter = async () => null)), "no graphics device");
     await refused((other) => other.route("**/table.bin", (route) => route.abort()), "did not arrive");
+    const lose = () => setTimeout(() => globalThis.lensrunnerDevice.destroy(), 6000);
+    await refused((other) => other.addInitScript(lose), "device was lost");
+    // Tablets have no pointer lock.
+    const tablet = await browser.newPage();
+    await tablet.addInitScript(() => delete Element.prototype.requestPointerLock);
+    await tablet.goto(server.address);
+    await screen(tablet, "warning");
   });
 } finally {
   server.stop();

@@ -4,8 +4,10 @@ const kept = "lensrunner-VERSION";
 
 self.addEventListener("install", (event) => {
   const keep = async () => {
-    const { files } = await (await fetch("files.json")).json();
-    await (await caches.open(kept)).addAll(["./", "files.json", ...Object.keys(files)]);
+    // Not what a host lets the browser keep for long, which may be of the version before.
+    const fresh = (name) => new Request(name, { cache: "no-cache" });
+    const { files } = await (await fetch(fresh("files.json"))).json();
+    await (await caches.open(kept)).addAll(["./", "files.json", ...Object.keys(files)].map(fresh));
     await self.skipWaiting();
   };
   event.waitUntil(keep());

@@ -3,8 +3,13 @@ import begin, { play } from "./lensrunner_page.js";
 import { language, say } from "./words.js";
 
 document.documentElement.lang = language;
+// What is heard: the last that was said of it, and what makes it once it has begun.
+const sound = { last: undefined, program: undefined, context: undefined, node: undefined, beginning: false };
 const at = (name) => document.getElementById(name);
 at("upright").textContent = say.upright;
+
+// Nothing ends without a sentence: neither the page's own scripts nor the program, which an empty memory ends where it is.
+window.addEventListener("error", ({ error }) => refuse(memory(error) ? say.memory : say.failed, String(error)));
 
 class Refusal extends Error {}
 
@@ -13,6 +18,7 @@ function refuse(sentence, cause) {
   at("cause").textContent = cause ?? "";
   at("bar").hidden = true;
   at("loading").hidden = false;
+  sound.context?.suspend();
 }
 
 const memory = (error) => error instanceof RangeError || /memory/i.test(String(error));
@@ -31,12 +37,26 @@ function files(sizes) {
         out.enqueue(piece);
       },
     });
-    return new Response(answer.body.pipeThrough(follow), { headers: { "content-type": answer.headers.get("content-type") } });
+    // Whatever the host calls it.
+    const type = name.endsWith(".wasm") ? "application/wasm" : "application/octet-stream";
+    return new Response(answer.body.pipeThrough(follow), { headers: { "content-type": type } });
+  };
+}
+
+// A device that is lost is said, whoever asked for it.
+function watchDevices() {
+  const request = GPUAdapter.prototype.requestDevice;
+  GPUAdapter.prototype.requestDevice = async function (...descriptor) {
+    const device = await request.apply(this, descriptor);
+    device.lost.then(({ message }) => refuse(say.lost, message));
+    globalThis.lensrunnerDevice = device;
+    return device;
   };
 }
 
 async function load() {
   if (!navigator.gpu) throw new Refusal(say.noWebGpu);
+  watchDevices();
   at("word").textContent = say.loading;
   const [adapter, list] = await Promise.all([navigator.gpu.requestAdapter(), fetch("files.json").catch(() => undefined)]);
   if (!adapter) throw new Refusal(say.noAdapter);
@@ -58,31 +78,35 @@ async function load() {
   await play(new Uint8Array(table), shaders, location.hash);
 }
 
-// The sound's own thread, begun by the player's first gesture, as browsers want it; the last that was to be heard is told it then.
-const sound = { last: undefined, port: undefined, context: undefined };
-
+// The sound's own thread, begun by a gesture of the player, as browsers want it; until it runs each gesture tries again.
 async function beginSound() {
-  if (sound.context) return;
-  sound.context = new AudioContext({ latencyHint: "interactive" });
-  const [program] = await Promise.all([
-    fetch("lensrunner_sound_bg.wasm").then((answer) => answer.arrayBuffer()),
-    sound.context.audioWorklet.addModule("sound.js"),
-  ]);
-  const node = new AudioWorkletNode(sound.context, "sound", {
-    numberOfInputs: 0,
-    outputChannelCount: [2],
-    processorOptions: { program },
-  });
-  node.connect(sound.context.destination);
-  sound.port = node.port;
-  sound.node = node;
-  if (sound.last) sound.port.postMessage(sound.last);
-  if (document.hidden) sound.context.suspend();
+  const context = new AudioContext({ latencyHint: "interactive" });
+  try {
+    sound.program ??= fetch("lensrunner_sound_bg.wasm").then((answer) => answer.arrayBuffer());
+    const [program] = await Promise.all([sound.program, context.audioWorklet.addModule("sound.js")]);
+    const node = new AudioWorkletNode(context, "sound", { numberOfInputs: 0, outputChannelCount: [2], processorOptions: { program } });
+    node.connect(context.destination);
+    if (sound.last) node.port.postMessage(sound.last);
+    Object.assign(sound, { context, node });
+  } catch (error) {
+    sound.program = undefined;
+    context.close();
+    throw error;
+  }
 }
 
-// Without sound the game goes on in silence.
-const gesture = () => beginSound().catch((error) => console.warn(`There is no sound: ${error}`));
-for (const kind of ["pointerup", "keydown"]) window.addEventListener(kind, gesture, { once: true, capture: true });
+async function wakeSound() {
+  if (sound.beginning || sound.context?.state === "running" || document.hidden) return;
+  sound.beginning = true;
+  try {
+    if (!sound.context) await beginSound();
+    await sound.context.resume();
+  } catch (error) {
+    console.warn(`There is no sound: ${error}`);
+  }
+  sound.beginning = false;
+}
+for (const kind of ["pointerup", "keydown", "gamepadconnected"]) window.addEventListener(kind, wakeSound, { capture: true });
 document.addEventListener("visibilitychange", () => (document.hidden ? sound.context?.suspend() : sound.context?.resume()));
 
 // Keys are the game's, but for the browser's own: those with Ctrl, Alt or Meta, and F5 and F12, which the game does not hear.
@@ -100,10 +124,16 @@ for (const kind of ["contextmenu", "wheel"]) game.addEventListener(kind, (event)
 
 // The mouse belongs to the game as long as the game wants it. A browser refuses it for a moment after Esc, and without a gesture: then the
 // next click asks again. Esc gives the mouse back, and many browsers do not tell the page: that is a pause.
-const mouse = { wanted: false, lock: game.requestPointerLock.bind(game), unlock: document.exitPointerLock.bind(document) };
+const without = () => undefined;
+const mouse = {
+  wanted: false,
+  // Tablets have no such thing.
+  lock: game.requestPointerLock?.bind(game) ?? without,
+  unlock: document.exitPointerLock?.bind(document) ?? without,
+};
 game.requestPointerLock = (options) => {
   mouse.wanted = true;
-  Promise.resolve(mouse.lock(options)).catch(() => undefined);
+  Promise.resolve(mouse.lock(options)).catch(without);
 };
 document.exitPointerLock = () => {
   mouse.wanted = false;
@@ -134,34 +164,54 @@ function download(name, bytes) {
 }
 
 async function bring(file) {
-  const kept = JSON.parse(await file.text());
-  const texts = Object.entries(kept).filter(([name, text]) => own(name) && typeof text === "string");
-  if (texts.length === 0) throw new Error("nothing of the game is in it");
-  texts.forEach(([name, text]) => localStorage.setItem(name, text));
-  location.reload();
+  const texts = await file.text().then(JSON.parse).then(Object.entries).catch(() => []);
+  const ours = texts.filter(([name, text]) => own(name) && typeof text === "string");
+  if (ours.length === 0) return alert(say.noneOfOurs);
+  if (!confirm(say.replace)) return;
+  const before = Object.entries(localStorage).filter(([name]) => own(name));
+  try {
+    ours.forEach(([name, text]) => localStorage.setItem(name, text));
+    location.reload();
+  } catch {
+    ours.forEach(([name]) => localStorage.removeItem(name));
+    before.forEach(([name, text]) => localStorage.setItem(name, text));
+    alert(say.full);
+  }
 }
+
+// A flight whose link is put into the page's address is shown.
+window.addEventListener("hashchange", () => location.hash.startsWith("#flight=") && location.reload());
+
+// What fails here must not end the game.
+const safely = (act) => (...values) => {
+  try {
+    act(...values);
+  } catch (error) {
+    alert(`${error.message ?? error}`);
+  }
+};
 
 // What the game asks the page for (`src/page.rs`).
 globalThis.lensrunner = {
   breath: () => new Promise((resolve) => setTimeout(resolve)),
   sound(numbers) {
     sound.last = Float64Array.from(numbers);
-    sound.port?.postMessage(sound.last);
+    sound.node?.port.postMessage(sound.last);
   },
-  download,
-  save_all() {
+  download: safely(download),
+  save_all: safely(() => {
     const kept = Object.entries(localStorage).filter(([name]) => own(name));
     download("lensrunner.json", JSON.stringify(Object.fromEntries(kept), undefined, 1));
-  },
-  bring_all() {
+  }),
+  bring_all: safely(() => {
     const chooser = Object.assign(document.createElement("input"), { type: "file", accept: ".json" });
-    chooser.onchange = () => bring(chooser.files[0]).catch((error) => alert(`${say.noneOfOurs} (${error.message})`));
+    chooser.onchange = () => bring(chooser.files[0]);
     chooser.click();
-  },
+  }),
   share(link) {
     const address = location.origin + location.pathname + link;
-    // Who forbids the clipboard finds it where addresses are.
-    const shown = () => history.replaceState(null, "", link);
+    // Where the clipboard is forbidden the player copies it.
+    const shown = () => prompt(say.copy, address);
     navigator.clipboard ? navigator.clipboard.writeText(address).catch(shown) : shown();
   },
   begun() {
@@ -173,6 +223,9 @@ globalThis.lensrunner = {
     navigator.serviceWorker?.register("keep.js").catch((error) => console.warn(`The page is not kept: ${error}`));
   },
   by_finger: () => matchMedia("(pointer: coarse)").matches,
+  hands(name) {
+    document.body.dataset.hands = name;
+  },
   drawn() {
     document.body.dataset.drawn = performance.now();
   },

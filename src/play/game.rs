@@ -236,9 +236,15 @@ fn read_commands(
         autopilot: player.autopilot,
         looking: player.looking,
         fire: std::mem::take(&mut player.fired) || input.holds(Action::Fire),
-        pace: session.config.clock.pace * slowing.0,
+        pace: stepped(session.config.clock.pace * slowing.0),
         ..PlayerCommands::holding(&stick)
     };
+}
+
+/// The nearest of 16 paces an octave: what changes in each step would make a long replay, and a turn that is 2 % slower is not felt.
+fn stepped(pace: f64) -> f64 {
+    const STEPS: f64 = 16.0;
+    ((pace.log2() * STEPS).round() / STEPS).exp2()
 }
 
 #[cfg(test)]

@@ -10,8 +10,9 @@ const CHANNELS: usize = 3;
 
 /// The strides and lengths of the axes of a file of the residual scheme, in the order of the differences; None if it is none.
 fn axes(bytes: &[u8]) -> Option<[(usize, usize); 4]> {
-    let size = (bytes.len() >= HEADER + 4).then(|| [0, 1, 2].map(|axis| u32::from_le_bytes(array(bytes, 28 + 4 * axis)) as usize + 2))?;
-    let [r, sweep, camera] = size;
+    let size = (bytes.len() >= HEADER + 4).then(|| [0, 1, 2].map(|axis| u32::from_le_bytes(array(bytes, 28 + 4 * axis))))?;
+    let [r, sweep, camera] = size.map(|nodes| usize::try_from(nodes).ok()?.checked_add(2));
+    let (r, sweep, camera) = (r?, sweep?, camera?);
     let row = CHANNELS.checked_mul(r)?;
     let layer = row.checked_mul(sweep)?;
     let whole = layer.checked_mul(camera)?.checked_mul(4)?.checked_add(HEADER + 4)?;

@@ -190,6 +190,7 @@ fn draw(
         fingers.target =
             seen.map(|(markers::MarkerPosition::On(at) | markers::MarkerPosition::Edge(at, _))| Vec2::new(at[0] as f32, at[1] as f32));
         touch::paint(&painter, &fingers, language);
+        taken.other.extend(touch::covered(&fingers));
     }
     markers::paint(&painter, rect, (&panel, numbers), taken, language);
     Ok(())

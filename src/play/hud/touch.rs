@@ -1,7 +1,7 @@
 //! The sticks and buttons for fingers, as the HUD paints them.
 
 use bevy::prelude::Vec2;
-use bevy_egui::egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, pos2};
+use bevy_egui::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2 as size};
 
 use crate::play::hud::paint::{FAINT, OWN, TEXT};
 use crate::play::hud::palette::Palette;
@@ -26,7 +26,7 @@ pub fn paint(painter: &Painter, touch: &TouchControls, language: Language) {
         let middle = point(stands.unwrap_or(*rest));
         painter.circle_filled(middle, 2.2 * radius, GROUND);
         ring(middle, 2.2 * radius, if stands.is_some() { OWN } else { FAINT });
-        let knob = middle + bevy_egui::egui::vec2(pushed.x, -pushed.y) * (1.4 * radius);
+        let knob = middle + size(pushed.x, -pushed.y) * (1.4 * radius);
         painter.circle_filled(knob, 0.8 * radius, if stands.is_some() { HELD } else { GROUND });
         ring(knob, 0.8 * radius, if stands.is_some() { OWN } else { FAINT });
     }
@@ -37,6 +37,14 @@ pub fn paint(painter: &Painter, touch: &TouchControls, language: Language) {
         let font = FontId::proportional(LETTERS * radius);
         painter.text(middle, Align2::CENTER_CENTER, language.say(button.word), font, palette.shown(TEXT));
     }
+}
+
+/// What they cover.
+pub fn covered(touch: &TouchControls) -> Vec<Rect> {
+    let layout = &touch.layout;
+    let square = |middle: Vec2, radius: f32| Rect::from_center_size(point(middle), size(2.0 * radius, 2.0 * radius));
+    let sticks = layout.sticks.iter().map(|stick| square(*stick, 2.2 * layout.radius));
+    sticks.chain(layout.buttons.iter().map(|button| square(button.middle, layout.radius))).collect()
 }
 
 fn point(at: Vec2) -> Pos2 {

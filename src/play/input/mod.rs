@@ -44,7 +44,7 @@ impl Plugin for ControlsPlugin {
             .init_resource::<TouchControls>()
             .add_message::<TouchInput>()
             .add_systems(First, spread_taps.after(MessageUpdateSystems))
-            .add_systems(PreUpdate, ((read_touches, note_sticks, note_taps, take_taps).chain(), note_device).after(InputSystems));
+            .add_systems(PreUpdate, (read_touches, note_device, note_sticks, note_taps, take_taps).chain().after(InputSystems));
     }
 }
 

@@ -1,8 +1,10 @@
-//! Fingers on the screen in play: two sticks, buttons, a drag that turns the ship as the mouse does, and a pinch for the distance.
+//! Fingers on the screen in play: two sticks, buttons, a drag that turns the ship as the mouse does, and in a replay a pinch for the
+//! distance.
 //!
 //! A stick stands where its finger went down, within its field at the side of the screen: the left one thrusts, the right one turns.
 
-use bevy::input::touch::{TouchInput, TouchPhase};
+use bevy::input::mouse::AccumulatedMouseMotion;
+use bevy::input::touch::{TouchInput, TouchPhase, Touches};
 use bevy::prelude::*;
 use bevy::window::PrimaryWindow;
 
@@ -48,8 +50,14 @@ const ABOVE: [(Action, &str); 6] = [
 /// The key of the word on the button of an action, if it has one.
 pub fn word_of(action: Action) -> Option<&'static str> {
     let stick = match action {
-        Action::ThrustForward | Action::ThrustBack | Action::ThrustLeft | Action::ThrustRight => Some("touch-left-stick"),
-        Action::YawLeft | Action::YawRight | Action::PitchUp | Action::PitchDown => Some("touch-right-stick"),
+        Action::ThrustForward => Some("touch-left-up"),
+        Action::ThrustBack => Some("touch-left-down"),
+        Action::ThrustLeft => Some("touch-left-left"),
+        Action::ThrustRight => Some("touch-left-right"),
+        Action::PitchUp => Some("touch-right-up"),
+        Action::PitchDown => Some("touch-right-down"),
+        Action::YawLeft => Some("touch-right-left"),
+        Action::YawRight => Some("touch-right-right"),
         Action::Boost => Some("touch-wholly"),
         _ => None,
     };
@@ -141,13 +149,15 @@ struct Finger {
 /// The fingers, and what they ask for in this frame.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct TouchControls {
-    /// Where everything is; empty where no finger was used.
+    /// Where everything is; empty before the first frame.
     pub layout: TouchLayout,
     /// How far the sticks are pushed, left and right: right and up, 1 at most.
     pub sticks: [Vec2; 2],
     /// Where the sticks stand that are held, in points.
     pub stands: [Option<Vec2>; 2],
     fingers: Vec<Finger>,
+    /// How long the last frame took, in seconds.
+    frame: f64,
     down: Vec<Action>,
     pushed: Vec<Action>,
     /// A tap on the target's marker has switched this on.
@@ -190,6 +200,7 @@ impl TouchControls {
     fn release(&mut self) {
         self.fingers.clear();
         self.down.clear();
+        self.looks = false;
         (self.sticks, self.stands) = ([Vec2::ZERO; 2], [None; 2]);
     }
 
@@ -222,7 +233,7 @@ impl TouchControls {
                 match finger.holds {
                     Holds::Button(action) => self.down.retain(|other| *other != action),
                     Holds::Stick(stick) => (self.stands[stick], self.sticks[stick]) = (None, Vec2::ZERO),
-                    Holds::View if phase == TouchPhase::Ended && !finger.moved && now - finger.since < TAP.1 => {
+                    Holds::View if phase == TouchPhase::Ended && !finger.moved && now - finger.since < TAP.1.max(3.0 * self.frame) => {
                         let near = self.target.is_some_and(|target| target.distance(at) * pixels < NEAR);
                         self.looks = near && !self.looks;
                     }
@@ -278,9 +289,15 @@ pub(super) fn read_touches(
     real: Res<Time<Real>>,
     mut turn: ResMut<MouseTurn>,
     mut device: ResMut<Device>,
-    mut touch: ResMut<TouchControls>,
+    (mut touch, touches): (ResMut<TouchControls>, Res<Touches>),
+    mut motion: ResMut<AccumulatedMouseMotion>,
 ) {
     let touch = &mut *touch;
+    touch.frame = real.delta_secs_f64();
+    // Browsers tell of a finger's way as of a mouse's too.
+    if touches.iter().next().is_some() || touches.iter_just_released().next().is_some() {
+        motion.delta = Vec2::ZERO;
+    }
     touch.pushed.clear();
     touch.pinch = None;
     let (Some(window), Some(session)) = (windows.iter().next(), session) else { return };

@@ -126,9 +126,13 @@ fn draw(
         Screen::Photo => card(context, "photo", NARROW, |ui| {
             heading(ui, &language.say("menu-photo"));
             rows(ui, menu);
+            let button = prompts.button(crate::play::input::action::Action::ToggleHud);
             paragraph(
                 ui,
-                &language.fill("photo-hint", &[("button", prompts.button(crate::play::input::action::Action::ToggleHud).as_str())]),
+                &match prompts.device {
+                    Device::Touch => language.say("photo-hint-touch"),
+                    _ => language.fill("photo-hint", &[("button", button.as_str())]),
+                },
             );
         }),
     }

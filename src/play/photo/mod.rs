@@ -5,6 +5,7 @@ pub mod darkroom;
 pub mod state;
 
 use bevy::input::mouse::AccumulatedMouseMotion;
+use bevy::input::touch::Touches;
 use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
 use glam::DVec3;
@@ -142,7 +143,7 @@ pub fn press(world: &mut World, knob: PhotoKnob) {
 /// The keys that otherwise fly move the camera; the mouse turns it while its left button is held, or while the panel is off.
 fn lead(
     input: PlayerInput,
-    (mouse, motion): (Res<ButtonInput<MouseButton>>, Res<AccumulatedMouseMotion>),
+    (mouse, motion, touches): (Res<ButtonInput<MouseButton>>, Res<AccumulatedMouseMotion>, Res<Touches>),
     pointer: Option<Res<EguiWantsInput>>,
     real: Res<Time<Real>>,
     session: Res<Session>,
@@ -150,6 +151,8 @@ fn lead(
 ) {
     /// Of the camera's distance from the hole a second; of a turn in radians a second.
     const RATES: (f64, f64) = (0.12, 1.0);
+    /// Of the camera's distance from the hole, for fingers that go e times as far apart.
+    const PINCH: f64 = 0.3;
     if input.pushed(Action::ToggleHud) {
         photo.panel = !photo.panel;
     }
@@ -162,14 +165,25 @@ fn lead(
     // With the panel on, the arrow keys are its own; a stick or other keys turn all the same.
     let arrows = photo.panel && input.keys.any_pressed([KeyCode::ArrowUp, KeyCode::ArrowDown, KeyCode::ArrowLeft, KeyCode::ArrowRight]);
     let mut turn = if arrows { DVec3::Z * stick.turn.z } else { stick.turn } * (RATES.1 * seconds);
-    let dragged = mouse.pressed(MouseButton::Left) && !pointer.is_some_and(|pointer| pointer.wants_any_pointer_input());
-    if dragged || !photo.panel {
-        let controls = &session.config.controls;
-        let sign = |inverted: bool| if inverted { -1.0 } else { 1.0 };
-        turn.x -= f64::from(motion.delta.y) * controls.mouse_sensitivity * sign(controls.invert_y);
-        turn.y -= f64::from(motion.delta.x) * controls.mouse_sensitivity * sign(controls.invert_x);
+    let free = !pointer.is_some_and(|pointer| pointer.wants_any_pointer_input());
+    let dragged = mouse.pressed(MouseButton::Left) && free;
+    let mut way = stick.thrust * (RATES.0 * seconds);
+    let mut led = if dragged || !photo.panel { motion.delta } else { Vec2::ZERO };
+    // One finger leads as the mouse does; two go nearer and farther.
+    match touches.iter().collect::<Vec<_>>()[..] {
+        [one] if free => led += one.delta(),
+        [one, other] => {
+            let [before, now] = [one.previous_position() - other.previous_position(), one.position() - other.position()].map(Vec2::length);
+            if before > 0.0 && now > 0.0 {
+                way.z += PINCH * f64::from(before / now).ln();
+            }
+        }
+        _ => (),
     }
-    let way = stick.thrust * (RATES.0 * seconds);
+    let controls = &session.config.controls;
+    let sign = |inverted: bool| if inverted { -1.0 } else { 1.0 };
+    turn.x -= f64::from(led.y) * controls.mouse_sensitivity * sign(controls.invert_y);
+    turn.y -= f64::from(led.x) * controls.mouse_sensitivity * sign(controls.invert_x);
     if way != DVec3::ZERO || turn != DVec3::ZERO {
         photo.camera.moved(way, turn);
     }

@@ -196,7 +196,7 @@ fn grab_cursor(
             cursor.grab_mode = if grabbed { CursorGrabMode::Locked } else { CursorGrabMode::None };
         }
     }
-    if flown {
+    if flown && *device != Device::Touch {
         turn.push(motion.delta, &session.config);
     }
 }

@@ -19,8 +19,24 @@ impl Plugin for PagePlugin {
         if page::by_finger() {
             app.insert_resource(Device::Touch);
         }
-        app.add_systems(Last, (begun, shown.run_if(state_changed::<Screen>), page::drawn.run_if(resource_added::<CurrentStage>)));
+        app.add_systems(
+            Last,
+            (
+                begun,
+                shown.run_if(state_changed::<Screen>),
+                page::drawn.run_if(resource_added::<CurrentStage>),
+                hands.run_if(resource_exists_and_changed::<Device>),
+            ),
+        );
     }
+}
+
+fn hands(device: Res<Device>) {
+    page::hands(match *device {
+        Device::Keyboard => "keyboard",
+        Device::Pad => "pad",
+        Device::Touch => "touch",
+    });
 }
 
 fn begun(mut frames: Local<u32>) {
