@@ -52,6 +52,8 @@ export async function open(options = {}) {
 // A page that keeps what it says on its console, and the times for which it did not answer, in ms since it was opened.
 export async function watched(browser, address) {
   const page = await browser.newPage();
+  // A busy machine draws a frame in seconds.
+  page.setDefaultTimeout(120_000);
   const said = [];
   page.on("console", (message) => said.push(`${message.type()}: ${message.text()}`));
   page.on("pageerror", (error) => said.push(`error: ${error.stack ?? error}`));
@@ -67,7 +69,7 @@ export async function watched(browser, address) {
 }
 
 // Waits until the game shows this screen.
-export const screen = (page, name, seconds = 60) =>
+export const screen = (page, name, seconds = 180) =>
   page.waitForFunction((name) => document.body.dataset.screen === name && document.getElementById("loading").hidden, name, {
     timeout: seconds * 1000,
     polling: 100,

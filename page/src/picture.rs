@@ -11,7 +11,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 pub async fn shot(table: Vec<u8>, shaders: String, scene: String, width: u32, height: u32) -> Result<Vec<u8>, JsError> {
     crate::bring(&table, &shaders)?;
     let size = [width, height];
-    let request = ShotRequest { scene: &scene, size, at: 0.0, layers: false, fill: false };
+    let request = ShotRequest { scene: &scene, size, at: 0.0, layers: false, fill: true };
     let picture = shot_later(&request, &GameConfig::default()).await?;
     let opaque: Vec<u8> = picture.display.as_chunks::<4>().0.iter().flat_map(|[red, green, blue, _]| [*red, *green, *blue]).collect();
     png(&opaque, picture.size, true, None).map_err(|error| JsError::new(&error))
