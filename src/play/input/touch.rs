@@ -281,16 +281,17 @@ pub(super) fn spread_taps(mut news: ResMut<Messages<TouchInput>>, mut later: Loc
     }
 }
 
+/// What is played, if anything.
+type Played<'w> = (Option<Res<'w, State<Screen>>>, Option<Res<'w, Session>>, Option<Res<'w, PlayerState>>);
+
 /// Reads the fingers. In play alone: menus have them otherwise.
 pub(super) fn read_touches(
     mut news: MessageReader<TouchInput>,
-    windows: Query<&Window, With<PrimaryWindow>>,
-    (screen, session, player): (Option<Res<State<Screen>>>, Option<Res<Session>>, Option<Res<PlayerState>>),
-    real: Res<Time<Real>>,
-    mut turn: ResMut<MouseTurn>,
+    (windows, real): (Query<&Window, With<PrimaryWindow>>, Res<Time<Real>>),
+    (screen, session, player): Played,
+    (mut turn, mut motion): (ResMut<MouseTurn>, ResMut<AccumulatedMouseMotion>),
     mut device: ResMut<Device>,
     (mut touch, touches): (ResMut<TouchControls>, Res<Touches>),
-    mut motion: ResMut<AccumulatedMouseMotion>,
 ) {
     let touch = &mut *touch;
     touch.frame = real.delta_secs_f64();

@@ -356,7 +356,7 @@ pub fn module(device: &wgpu::Device, label: &str, pass: Pass) -> wgpu::ShaderMod
 /// The shader module of a shader.
 pub fn module_of(device: &wgpu::Device, label: &str, shader: impl Into<Shader>) -> wgpu::ShaderModule {
     let source = match shader.into() {
-        Shader::Composed(module) => wgpu::ShaderSource::Naga(Cow::Owned(module)),
+        Shader::Composed(module) => wgpu::ShaderSource::Naga(Cow::Owned(*module)),
         Shader::Written(text) => wgpu::ShaderSource::Wgsl(text.into()),
     };
     counted(device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source }))

@@ -24,14 +24,14 @@ static BROUGHT: OnceLock<BTreeMap<String, String>> = OnceLock::new();
 #[derive(Clone, Debug)]
 pub enum Shader {
     /// Composed here.
-    Composed(Module),
+    Composed(Box<Module>),
     /// The text of one that was composed before.
     Written(&'static str),
 }
 
 impl From<Module> for Shader {
     fn from(module: Module) -> Shader {
-        Shader::Composed(module)
+        Shader::Composed(Box::new(module))
     }
 }
 
@@ -210,7 +210,7 @@ impl Pass {
     pub fn shader_along(self, worldlines: Worldlines, method: Method, inside: bool) -> Shader {
         let choice = self.choice(worldlines, method, inside);
         let brought = BROUGHT.get().and_then(|texts| texts.get(&choice.name()));
-        brought.map_or_else(|| Shader::Composed(choice.composed("")), |text| Shader::Written(text))
+        brought.map_or_else(|| choice.composed("").into(), |text| Shader::Written(text))
     }
 
     /// Those of what the pass projects.
