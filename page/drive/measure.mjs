@@ -98,7 +98,7 @@ async function flight(page, seconds) {
 
 // How many pixels of each scene are off by more than 2 of 255, from the laboratory's rows.
 async function compared() {
-  const lines = (await readFile("docs/lab/drivers-page.csv", "utf8")).split("\n").filter((line) => line && !line.startsWith("#"));
+  const lines = (await readFile("out/page/drivers-page.csv", "utf8")).split("\n").filter((line) => line && !line.startsWith("#"));
   const rows = lines.slice(1).map((line) => line.split(","));
   const off = rows.filter(([, , differ]) => Number(differ) > 0).map(([scene, , differ]) => `\`${scene}\` ${differ}`);
   const same = `${rows.length - off.length} of ${rows.length} have no pixel that is off by more than 2 of 255`;
@@ -120,9 +120,9 @@ try {
 first frame still stands still for longer than asked.
 
     ./test-web                                             # builds out/web, and plays it; HOST is the page's server that it has built
-    node page/drive/measure.mjs HOST out/web               # this page
     node page/drive/pictures.mjs HOST out/web out/page SCENE...
-    VK_DRIVER_FILES=SWIFTSHADER.json lab/run chart drivers --driver out/page -o docs/lab
+    VK_DRIVER_FILES=SWIFTSHADER.json lab/run chart drivers --driver out/page -o out/page
+    node page/drive/measure.mjs HOST out/web               # this page, with what the line before has found
     node page/drive/screens.mjs HOST out/web               # docs/screens
 
 Chromium with its software adapter, 640 × 360, ${cpus().length} cores (${cpus()[0].model.trim()}), files from this machine.
@@ -169,8 +169,7 @@ larger than those within them.
 
 ## Pictures
 
-The twelve scenes of [drivers](drivers.md), 640 × 360, drawn in the page and by the program, both on SwiftShader
-([rows](drivers-page.csv)): ${pictures}
+The twelve scenes of [drivers](drivers.md), 640 × 360, drawn in the page and by the program, both on SwiftShader: ${pictures}
 
 ## Tried
 
