@@ -1,10 +1,11 @@
-// Measures the page and writes docs/lab/web.md: node measure.mjs HOST FOLDER
+// Measures the page and writes docs/lab/web.md: node measure.mjs HOST FOLDER PROGRAM
+import { spawnSync } from "node:child_process";
 import { readFile, stat, writeFile } from "node:fs/promises";
 import { cpus } from "node:os";
 import { join } from "node:path";
 import { open, screen, serve, watched } from "./browser.mjs";
 
-const [host, folder] = process.argv.slice(2);
+const [host, folder, program] = process.argv.slice(2);
 const server = await serve(host, folder);
 const PARTS = {
   "lensrunner_page_bg.wasm": "the game, with sky, models, scenes, words",
@@ -105,6 +106,16 @@ async function compared() {
   return off.length > 0 ? `${same}; of 230,400 pixels there are in ${off.join(", in ")}.` : `${same}.`;
 }
 
+// Milliseconds a frame of the program on the adapter that VK_DRIVER_FILES names, in the same flight.
+function native() {
+  const flight = ["--mission", "01-training", "--difficulty", "easy", "--autopilot", "--at-once", "--frames", "300"];
+  const place = ["--headless", "--size", "640x360", "--timings", "out/page-native.csv"];
+  const { stdout, stderr } = spawnSync(program, ["play", ...place, ...flight], { encoding: "utf8" });
+  const mean = /([\d.]+) ms in the mean/.exec(stdout + stderr)?.[1];
+  if (!mean) throw new Error(`${program}: ${stderr}`);
+  return Number(mean);
+}
+
 const table = (head, rows) => [head, head.map(() => "---"), ...rows].map((row) => `| ${row.join(" | ")} |`).join("\n");
 try {
   const { page, close, arrived, begun, drawn, picture, flying, blocks } = await loading();
@@ -112,6 +123,7 @@ try {
   const flown = await flight(page, 20);
   await close();
   const pictures = await compared();
+  const beside = native();
   const second = (ms) => (ms / 1000).toFixed(1);
   const longest = (list) => Math.max(0, ...list.map(([, duration]) => duration)).toFixed(0);
   const text = `# The game in a browser
@@ -122,7 +134,7 @@ first frame still stands still for longer than asked.
     ./test-web                                             # builds out/web, and plays it; HOST is the page's server that it has built
     node page/drive/pictures.mjs HOST out/web out/page SCENE...
     VK_DRIVER_FILES=SWIFTSHADER.json lab/run chart drivers --driver out/page -o out/page
-    node page/drive/measure.mjs HOST out/web               # this page, with what the line before has found
+    VK_DRIVER_FILES=SWIFTSHADER.json node page/drive/measure.mjs HOST out/web lensrunner    # this page, with what the line before has found
     node page/drive/screens.mjs HOST out/web               # docs/screens
 
 Chromium with its software adapter, 640 × 360, ${cpus().length} cores (${cpus()[0].model.trim()}), files from this machine.
@@ -154,6 +166,8 @@ ${table(
     ["", ""],
     [
       ["frames a second", (flown.frames / flown.seconds).toFixed(1)],
+      ["ms a frame", ((1000 * flown.seconds) / flown.frames).toFixed(0)],
+      ["the same of the program beside it, on the same adapter", beside.toFixed(0)],
       ["longest frame, ms", flown.longest.toFixed(0)],
       ["share of its time that the page's thread works", `${(100 * flown.busy).toFixed(0)} %`],
       ["the same, ms a frame", ((1000 * flown.busy * flown.seconds) / flown.frames).toFixed(0)],
@@ -169,7 +183,8 @@ larger than those within them.
 
 ## Pictures
 
-The twelve scenes of [drivers](drivers.md), 640 × 360, drawn in the page and by the program, both on SwiftShader: ${pictures}
+The twelve scenes of [drivers](drivers.md), 640 × 360, drawn in the page and by the program, both on
+SwiftShader: ${pictures}
 
 ## Tried
 
