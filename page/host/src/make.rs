@@ -58,7 +58,9 @@ pub fn join(program: &Path, target: For, folder: &Path) -> Result<(), String> {
         For::Node => bindgen.nodejs(true),
     };
     chosen
-        .and_then(|bindgen| bindgen.typescript(false).remove_name_section(true).remove_producers_section(true).input_path(program).generate(folder))
+        .and_then(|bindgen| {
+            bindgen.typescript(false).remove_name_section(true).remove_producers_section(true).input_path(program).generate(folder)
+        })
         .map_err(|error| format!("{}: {error:#}", program.display()))
 }
 
