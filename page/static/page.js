@@ -9,7 +9,8 @@ const at = (name) => document.getElementById(name);
 at("upright").textContent = say.upright;
 
 // Nothing ends without a sentence: neither the page's own scripts nor the program, which an empty memory ends where it is.
-window.addEventListener("error", ({ error }) => refuse(memory(error) ? say.memory : say.failed, String(error)));
+// An event without an error is a warning of the browser's own.
+window.addEventListener("error", ({ error }) => error && refuse(memory(error) ? say.memory : say.failed, String(error)));
 
 class Refusal extends Error {}
 
@@ -100,13 +101,14 @@ async function wakeSound() {
   sound.beginning = true;
   try {
     if (!sound.context) await beginSound();
-    await sound.context.resume();
+    // It waits for a gesture that counts: the next one tries again meanwhile.
+    sound.context.resume();
   } catch (error) {
     console.warn(`There is no sound: ${error}`);
   }
   sound.beginning = false;
 }
-for (const kind of ["pointerup", "keydown", "gamepadconnected"]) window.addEventListener(kind, wakeSound, { capture: true });
+for (const kind of ["pointerup", "keydown"]) window.addEventListener(kind, wakeSound, { capture: true });
 document.addEventListener("visibilitychange", () => (document.hidden ? sound.context?.suspend() : sound.context?.resume()));
 
 // Keys are the game's, but for the browser's own: those with Ctrl, Alt or Meta, and F5 and F12, which the game does not hear.

@@ -306,6 +306,10 @@ pub(super) fn read_touches(
     if !plays {
         touch.release();
     }
+    // Who uses no finger pays for none.
+    if *device != Device::Touch && news.is_empty() {
+        return;
+    }
     let pixels = points_of(window, &session);
     let size = Vec2::new(window.width(), window.height()) / pixels;
     touch.layout = TouchLayout::new(size, pixels, session.config.ship.bolts > 0);
