@@ -2,22 +2,20 @@
 
 use bevy::prelude::*;
 
-use crate::sim::assist::AssistMode;
+use crate::sim::assist::Stick;
 use crate::sim::by_hand::choose_pilot;
-use crate::sim::intercept::Way;
-use crate::sim::pilot::steer::turn_nose;
 use crate::sim::replay::Playback;
 use crate::sim::ship::Player;
 use crate::sim::target::Targets;
 use crate::sim::{Chase, Clock, Engine, Fleet, PlayerCommands, ShipMotion, SimSet, Turning, board, outcome, start};
 use crate::spacetime::matter::gamma;
 
-use crate::play::camera::orbit::Orbit;
 use crate::play::choices::Choices;
 use crate::play::input::action::Action;
 use crate::play::input::gaze::Gaze;
-use crate::play::input::lead::lead_camera;
+use crate::play::input::lead::{lead_camera, pinch_camera};
 use crate::play::input::mouse::MouseTurn;
+use crate::play::input::response::steadied;
 use crate::play::input::{ControlsPlugin, PlayerInput};
 use crate::play::menus::MenuModelPlugin;
 use crate::play::menus::navigate::FileConfig;
@@ -46,7 +44,13 @@ impl Plugin for GamePlugin {
             .add_systems(
                 Update,
                 (
-                    (read_keys, lead_camera.run_if(resource_exists::<Playback>)).chain().in_set(GameSet::Keys),
+                    (
+                        read_keys,
+                        lead_camera.run_if(resource_exists::<Playback>),
+                        pinch_camera.run_if(not(resource_exists::<Playback>)),
+                    )
+                        .chain()
+                        .in_set(GameSet::Keys),
                     (answer_menus, end_chase, run_time).chain().in_set(GameSet::Answer),
                 ),
             )
@@ -74,7 +78,7 @@ pub fn begin(world: &mut World, screen: Screen) {
     let pilot = player.pilot.filter(|_| screen == Screen::Playing);
     player.follower.reset();
     player.gaze = Gaze::default();
-    player.orbit = Orbit::default();
+    player.orbit = player.orbit.ahead();
     player.flown = Flown::default();
     player.assist = None;
     player.assist_held = None;
@@ -209,42 +213,38 @@ fn read_commands(
     input: PlayerInput,
     clock: Res<Clock>,
     (session, slowing): (Res<Session>, Res<Slowing>),
-    (mut player, mut turn): (ResMut<PlayerState>, ResMut<MouseTurn>),
+    (mut player, mut turn, mut steady): (ResMut<PlayerState>, ResMut<MouseTurn>, Local<Stick>),
     mut commands: ResMut<PlayerCommands>,
     targets: Targets,
-    mut ships: Query<(Entity, &ShipMotion, &Engine, &Turning, &mut Way), With<Player>>,
+    ships: Query<(Entity, &ShipMotion, &Engine, &Turning), With<Player>>,
 ) {
-    let (mut stick, mut assist) = (input.stick(), player.assisted(&session.config));
-    for (ship, motion, engine, turning, mut way) in &mut ships {
-        let mark = player.facing.then(|| targets.mark((ship, &mut way), &motion.0, clock.time, engine.max_thrust)).flatten();
-        if let Some((mark, serves)) = mark {
-            assist = match assist {
-                AssistMode::Off => AssistMode::Off,
-                _ if player.matching() => AssistMode::Target,
-                _ => serves,
-            };
+    *steady = steadied(&steady, &input.stick());
+    let (mut stick, mut facing, pace) = (*steady, false, session.config.clock.pace * slowing.0);
+    for (ship, motion, engine, turning) in &ships {
+        facing |= player.facing && targets.known(ship, &motion.0, clock.time).is_some();
+        if facing {
             // Whoever asks for the mark does not steer aside.
             turn.take();
-            stick.turn = turn_nose(mark, 1.0).with_z(stick.turn.z);
-            continue;
+        } else {
+            stick.turn = turn.pull(stick.turn, engine, turning.0, clock.step / gamma(motion.0.momentum), clock.step / pace);
         }
-        stick.turn = turn.pull(stick.turn, engine, turning.0, clock.step / gamma(motion.0.momentum));
     }
     *commands = PlayerCommands {
-        assist,
+        assist: player.assisted(&session.config),
         matching: player.matching(),
+        facing,
         autopilot: player.autopilot,
         looking: player.looking,
         fire: std::mem::take(&mut player.fired) || input.holds(Action::Fire),
-        pace: stepped(session.config.clock.pace * slowing.0),
+        pace: stepped(pace),
         ..PlayerCommands::holding(&stick)
     };
 }
 
-/// The nearest of 16 paces an octave: what changes in each step would make a long replay, and a turn that is 2 % slower is not felt.
+/// The pace, to four bits behind the first: what changes in each step would make a long replay, and a turn that is 3 % faster is not felt.
 fn stepped(pace: f64) -> f64 {
-    const STEPS: f64 = 16.0;
-    ((pace.log2() * STEPS).round() / STEPS).exp2()
+    const REST: u32 = 52 - 4;
+    f64::from_bits((pace.to_bits() + (1 << (REST - 1))) >> REST << REST)
 }
 
 #[cfg(test)]
@@ -252,6 +252,8 @@ pub(in crate::play) mod tests {
     use super::*;
     use crate::play::input::tests::press_key;
     use crate::play::overlay::live::LivePlugin;
+    use crate::sim::assist::AssistMode;
+    use crate::sim::intercept::Way;
     use crate::sim::{Outcome, SimulationPlugins};
     use bevy::input::{ButtonState, InputPlugin};
     use bevy::state::app::StatesPlugin;
@@ -370,23 +372,24 @@ pub(in crate::play) mod tests {
         assert_eq!(assist(&app), AssistMode::Orbit);
     }
 
-    /// Held, the key turns the nose to where thrust leads to the target, and the assist rests.
+    /// Held, the key turns the nose to where thrust leads to the target; the log keeps that it does, not each turn.
     #[test]
     fn the_key_of_the_mark_turns_the_nose_to_it() {
         let mut app = playing();
         press_key(&mut app, KeyCode::KeyF, ButtonState::Pressed);
         (0..60).for_each(|_| app.update());
         let commands = *app.world().resource::<PlayerCommands>();
-        assert_eq!(commands.assist, AssistMode::Off);
+        assert!(commands.facing && commands.turn == [0; 3]);
         let on_mark = |targets: Targets, clock: Res<Clock>, ships: Query<(Entity, &ShipMotion, &Engine), With<Player>>| {
             let (ship, motion, engine) = ships.single().expect("one player");
             targets.mark((ship, &mut Way::default()), &motion.0, clock.time, engine.max_thrust)
         };
         let (mark, serves) = app.world_mut().run_system_cached(on_mark).expect("all resources are there").expect("a target");
         assert!(serves == AssistMode::Off && mark.angle_between(glam::DVec3::NEG_Z) < 0.15, "{mark}");
+        assert_eq!(commands.turned_to(mark, serves).assist, AssistMode::Off);
         press_key(&mut app, KeyCode::KeyF, ButtonState::Released);
         (0..2).for_each(|_| app.update());
-        assert_eq!(app.world().resource::<PlayerCommands>().assist, AssistMode::Orbit);
+        assert!(!app.world().resource::<PlayerCommands>().facing);
     }
 
     /// The key and the menu begin as before, another start is another one.

@@ -92,6 +92,8 @@ pub struct LastFlight {
     pub before: Option<Best>,
     /// Its replay.
     pub replay: Option<Replay>,
+    /// The link to it, or how many letters that would have.
+    pub link: Option<Result<String, usize>>,
 }
 
 /// Records flights and keeps the best.
@@ -174,7 +176,7 @@ fn keep_score(world: &mut World) {
     let Some(mut recording) = world.remove_resource::<ReplayLog>() else { return };
     recording.0.finish(world);
     let session = world.resource::<Session>().clone();
-    let mut last = LastFlight { replay: Some(recording.0.clone()), ..LastFlight::default() };
+    let mut last = LastFlight { replay: Some(recording.0.clone()), link: Some(recording.0.to_link()), ..LastFlight::default() };
     if let Some(mission) = &session.scene.mission {
         last.before = world.resource::<Records>().best(&session.scene.record_name(), session.difficulty);
         let flown_by_hand = !world.resource::<PlayerState>().flown.by_autopilot;

@@ -50,7 +50,7 @@ pub struct PlayerState {
     pub choice: usize,
     /// Which scene is chosen for free flight.
     pub free: usize,
-    /// The free camera of a replay.
+    /// The free camera of a replay, and in flight the distance of the third-person camera.
     pub orbit: Orbit,
     /// How far the camera has turned to the target.
     pub gaze: Gaze,

@@ -12,9 +12,9 @@ const SHOWN: f64 = 6.0;
 
 /// Copies the link of the last flight and says so, or says why there is none.
 pub fn share(world: &mut World) {
-    let Some(replay) = world.get_resource::<LastFlight>().and_then(|last| last.replay.clone()) else { return };
+    let Some(link) = world.get_resource::<LastFlight>().and_then(|last| last.link.clone()) else { return };
     let language = world.resource::<Session>().language();
-    let text = match replay.to_link() {
+    let text = match link {
         Ok(link) => {
             copy(world, &link);
             language.say("share-copied")
@@ -37,5 +37,101 @@ fn copy(world: &mut World, link: &str) {
     let mut contexts = world.query::<&mut bevy_egui::EguiContext>();
     for mut context in contexts.iter_mut(world) {
         context.get_mut().copy_text(link.to_owned());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::play::game::tests::game_of;
+    use crate::play::input::mouse::MouseTurn;
+    use crate::play::input::tests::press_key;
+    use crate::play::player_state::{Flown, PlayerState};
+    use crate::play::session::Session;
+    use crate::scene::GameConfig;
+    use crate::sim::replay::{Replay, ReplayLog};
+    use bevy::input::ButtonState;
+    use bevy::prelude::*;
+    use rand::{RngExt, SeedableRng, rngs::StdRng};
+    use std::path::Path;
+    use std::time::Duration;
+
+    /// A hand: where the mouse goes in each frame (pixels), and which keys it has pressed.
+    struct Hand {
+        chance: StdRng,
+        /// Its flicks: pixels, frames, frames done.
+        flick: (Vec2, f32, f32),
+        gone: Vec2,
+        /// Frames between two flicks, about.
+        rest: u32,
+        /// Keys, whether they are down, and for how many frames.
+        keys: [(KeyCode, bool, u32, [std::ops::Range<u32>; 2]); 3],
+    }
+
+    impl Hand {
+        fn moves(&mut self) -> Vec2 {
+            let (way, long, done) = self.flick;
+            if done >= long && self.chance.random_range(0..self.rest) == 0 {
+                let angle = self.chance.random_range(0.0..std::f32::consts::TAU);
+                let far = 10.0 * self.chance.random_range(0.0f32..3.0).exp();
+                self.flick = (Vec2::from_angle(angle) * far, self.chance.random_range(8.0..27.0), 0.0);
+                self.gone = Vec2::ZERO;
+                return Vec2::ZERO;
+            }
+            // It starts and stops softly, and moves whole pixels.
+            self.flick.2 += 1.0;
+            let share = (self.flick.2 / long).min(1.0);
+            let at = (way * share.powi(3) * (10.0 - 15.0 * share + 6.0 * share * share)).round();
+            at - std::mem::replace(&mut self.gone, at)
+        }
+
+        fn presses(&mut self, app: &mut App) {
+            for (key, down, left, spans) in &mut self.keys {
+                if *left == 0 {
+                    *down = !*down;
+                    *left = self.chance.random_range(spans[usize::from(*down)].clone());
+                    press_key(app, *key, if *down { ButtonState::Pressed } else { ButtonState::Released });
+                }
+                *left -= 1;
+            }
+        }
+    }
+
+    /// Flights at the usual pace by a hand that is never long at rest: flicks of the mouse, thrust on and off, the mark now and then. Two
+    /// minutes go into a link with a flick a second, three with half as many. Flown again they come to the same end.
+    #[test]
+    fn minutes_by_hand_go_into_a_link() {
+        for (minutes, rest) in [(2, 60), (3, 120)] {
+            let flight = flown(60 * 60 * minutes, rest);
+            let link = flight.to_link();
+            println!("{minutes} minutes, {} commands, {} steps: {:?}", flight.records.len(), flight.ticks, link.as_ref().map(String::len));
+            let again = Replay::from_link(&link.expect("it goes into a link")).expect("a flight");
+            again.verify(Path::new("the link"), None, &GameConfig::default()).expect("the same end");
+            assert!(flight.ticks > 60 * 40 * u64::from(minutes), "{}", flight.ticks);
+        }
+    }
+
+    /// So many frames of a sixtieth of a second, by a hand that rests so many of them between two flicks.
+    fn flown(frames: u32, rest: u32) -> Replay {
+        let mut app = game_of(Duration::from_micros(16_667));
+        app.insert_resource(Session::load(None, Some("chase"), Some(1)).expect("the game's own"));
+        app.update();
+        app.update();
+        press_key(&mut app, KeyCode::Enter, ButtonState::Pressed);
+        app.update();
+        press_key(&mut app, KeyCode::Enter, ButtonState::Released);
+        app.update();
+        let key = |key, up, down| (key, false, 60, [up, down]);
+        let keys = [key(KeyCode::KeyW, 60..300, 20..90), key(KeyCode::KeyS, 200..900, 10..60), key(KeyCode::KeyF, 600..1200, 90..180)];
+        let mut hand = Hand { chance: StdRng::seed_from_u64(1), flick: (Vec2::ZERO, 1.0, 1.0), gone: Vec2::ZERO, rest, keys };
+        for _ in 0..frames {
+            let pixels = hand.moves();
+            app.world_mut().resource_mut::<MouseTurn>().push(pixels, &GameConfig::default());
+            hand.presses(&mut app);
+            app.update();
+        }
+        let mut flight = app.world().resource::<ReplayLog>().0.clone();
+        flight.finish(app.world());
+        assert_eq!(app.world().resource::<PlayerState>().flown, Flown { by_hand: true, by_autopilot: false });
+        flight
     }
 }

@@ -13,7 +13,7 @@ use super::by_hand::Avoiding;
 use super::goals::{ActiveMission, Progress, needed};
 use super::guidance::{approach, guidance};
 use super::history::History;
-use super::intercept::{Advice, Way};
+use super::intercept::{Advice, ShownWay, Way};
 use super::known::Known;
 use super::pilot::aim::shot_passes;
 use super::pilot::rollout::Point;
@@ -363,11 +363,16 @@ type TargetKnown = (Known, Option<f64>, Option<Advice>);
 fn known_target(
     In((own, state, time)): In<(Entity, ShipState, f64)>,
     targets: Targets,
-    mut ships: Query<(&Engine, &mut Way)>,
+    commands: Res<PlayerCommands>,
+    mut ships: Query<(&Engine, &Way, &mut ShownWay)>,
 ) -> Option<TargetKnown> {
     let known = targets.known(own, &state, time)?;
-    let (engine, mut way) = ships.get_mut(own).ok()?;
-    let advice = targets.advice((own, &mut way), &state, &known, time, engine.max_thrust);
+    let (engine, way, mut shown) = ships.get_mut(own).ok()?;
+    // Where the nose turns to.
+    if commands.facing {
+        shown.0 = *way;
+    }
+    let advice = targets.advice((own, &mut shown.0), &state, &known, time, engine.max_thrust);
     Some((known, targets.reach(own), advice))
 }
 

@@ -5,6 +5,7 @@ use bevy::prelude::*;
 use super::SimSet;
 use super::bolts::Trigger;
 use super::clock::Clock;
+use super::intercept::Way;
 use super::player_commands::{ManualControl, PlayerCommands};
 use super::ship::{Controls, Engine, Manual, Player, ShipMotion};
 use super::target::Targets;
@@ -43,17 +44,19 @@ fn apply_commands(
     (player_commands, control, clock): (Res<PlayerCommands>, Res<ManualControl>, Res<Clock>),
     targets: Targets,
     mut avoiding: ResMut<Avoiding>,
-    mut ships: Query<(Entity, &ShipMotion, &mut Engine, &mut Controls, Option<&mut Trigger>), ByHand>,
+    mut ships: Query<(Entity, &ShipMotion, &mut Engine, &mut Controls, &mut Way, Option<&mut Trigger>), ByHand>,
 ) {
     avoiding.0 = false;
-    for (ship, motion, mut engine, mut controls, trigger) in &mut ships {
+    for (ship, motion, mut engine, mut controls, mut way, trigger) in &mut ships {
         engine.max_rate = control.turn_rate / player_commands.pace;
-        let known = player_commands.needs_target().then(|| targets.known(ship, &motion.0, clock.time)).flatten();
-        let help = player_commands.command(&motion.0, &engine, known.map(|known| known.point.velocity()), &control.assist);
+        let mark = player_commands.facing.then(|| targets.mark((ship, &mut way), &motion.0, clock.time, engine.max_thrust)).flatten();
+        let asked = mark.map_or(*player_commands, |(mark, serves)| player_commands.turned_to(mark, serves));
+        let known = asked.needs_target().then(|| targets.known(ship, &motion.0, clock.time)).flatten();
+        let help = asked.command(&motion.0, &engine, known.map(|known| known.point.velocity()), &control.assist);
         avoiding.0 = help.avoiding;
         controls.0 = help.command;
         if let Some(mut trigger) = trigger {
-            trigger.pulled = player_commands.fire;
+            trigger.pulled = asked.fire;
         }
     }
 }

@@ -84,7 +84,7 @@ pub fn advised(own: &Point, known: &Known, thrust: f64, reach: f64, kept: Option
     })
 }
 
-/// The way that a ship is on to its target. It is found anew now and then, and one stays on it until another is clearly better.
+/// The way that whoever flies a ship is on to its target. It is found anew now and then, and one stays on it until another is clearly better.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct Way {
     /// T when it was found, in r_s/c.
@@ -95,6 +95,10 @@ pub struct Way {
     meets: Option<f64>,
     advice: Option<Advice>,
 }
+
+/// The way that is shown of a ship, asked for whenever a frame is drawn: what flies must not hang on that.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub struct ShownWay(pub Way);
 
 /// How long a way is held for found, in r_s/c: a tenth of a second at the usual pace. Frames ask before the step that ends them.
 const FOUND: f64 = 0.15;

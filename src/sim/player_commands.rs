@@ -4,6 +4,7 @@ use bevy::prelude::*;
 use glam::DVec3;
 
 use super::assist::{AssistMode, AssistSettings, Assisted, Reference, Stick, assisted, direct, kept_off, matched};
+use super::pilot::steer::turn_nose;
 use super::ship::Engine;
 use crate::scene::GameConfig;
 use crate::spacetime::matter::ShipState;
@@ -23,6 +24,8 @@ pub struct PlayerCommands {
     pub autopilot: bool,
     /// The player looks at the target.
     pub looking: bool,
+    /// The nose turns to where thrust leads to the target, and the assist serves on that way ([`super::target::Targets::mark`]).
+    pub facing: bool,
     /// A bolt is to be fired.
     pub fire: bool,
     /// The game's pace, in r_s/c of T a second: a full turn stick means so much a second.
@@ -39,6 +42,7 @@ impl Default for PlayerCommands {
             matching: false,
             autopilot: false,
             looking: false,
+            facing: false,
             fire: false,
             pace,
         }
@@ -54,6 +58,17 @@ impl PlayerCommands {
         // NaN is no deflection.
         let whole = |axis: f64| (axis.clamp(-1.0, 1.0) * PlayerCommands::FULL).round() as i8;
         PlayerCommands { thrust: stick.thrust.to_array().map(whole), turn: stick.turn.to_array().map(whole), ..PlayerCommands::default() }
+    }
+
+    /// As they are with the nose turning to `mark` (a unit vector on body axes), on whose way the assist `serves`.
+    pub fn turned_to(&self, mark: DVec3, serves: AssistMode) -> PlayerCommands {
+        let turn = PlayerCommands::holding(&Stick { turn: turn_nose(mark, 1.0), ..Stick::default() }).turn;
+        let assist = match self.assist {
+            AssistMode::Off => AssistMode::Off,
+            _ if self.matching => AssistMode::Target,
+            _ => serves,
+        };
+        PlayerCommands { turn: [turn[0], turn[1], self.turn[2]], assist, ..*self }
     }
 
     /// The sticks.

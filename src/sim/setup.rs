@@ -17,7 +17,7 @@ use super::bolts::{Bolts, Gun, Hits, Trigger};
 use super::clock::Clock;
 use super::goals::{ActiveMission, Progress};
 use super::history::History;
-use super::intercept::Way;
+use super::intercept::{ShownWay, Way};
 use super::pilot::beginner::Beginner;
 use super::pilot::jerky::Jerky;
 use super::pilot::person::Person;
@@ -240,7 +240,7 @@ fn spawn(world: &mut World, index: usize, spec: &ShipSpec, defaults: &Defaults, 
         Controls::default(),
         Fuel { left: fuel, capacity: fuel },
         Engine { max_thrust: spec.max_thrust.unwrap_or(thrust), max_rate: defaults.max_rate, reach: reach_of(spec, defaults.sizes) },
-        (Turning::default(), Way::default()),
+        (Turning::default(), Way::default(), ShownWay::default()),
         Programme(spec.programme.clone()),
         History::new(time, &spec.state),
         Hits::default(),

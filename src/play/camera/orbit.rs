@@ -36,6 +36,11 @@ impl Orbit {
         (follows * DQuat::from_rotation_y(self.turn.y) * DQuat::from_rotation_x(self.turn.x)).normalize()
     }
 
+    /// Straight behind, as far off as it is.
+    pub fn ahead(&self) -> Orbit {
+        Orbit { turn: DVec2::ZERO, ..*self }
+    }
+
     /// Its distance over the usual one.
     pub fn zoom(&self) -> f64 {
         self.zoom

@@ -1,4 +1,4 @@
-//! In a replay nobody flies: the player's input leads the camera.
+//! The player's input leads the camera: in a replay, where nobody flies, all of it; in flight a pinch.
 
 use bevy::prelude::*;
 use glam::DVec2;
@@ -26,5 +26,12 @@ pub fn lead_camera(
     player.orbit.moved(mouse + keys, (stick.thrust.z * RATES.1 * seconds).exp() * f64::from(touch.pinch.unwrap_or(1.0)));
     if input.holds(Action::LookAtTarget) {
         player.orbit = Orbit::default();
+    }
+}
+
+/// In flight a pinch has the third-person camera nearer or farther.
+pub fn pinch_camera(touch: Res<TouchControls>, mut player: ResMut<PlayerState>) {
+    if let Some(pinch) = touch.pinch {
+        player.orbit.moved(DVec2::ZERO, f64::from(pinch));
     }
 }

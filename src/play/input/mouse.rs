@@ -15,9 +15,18 @@ pub struct MouseTurn {
     flown: DVec2,
     /// Body rates that the keys alone would have turned the ship with, while the mouse turns it too (rad per proper r_s/c).
     by_keys: Option<DVec3>,
+    /// The mouse's share of the stick (pitch, yaw), and for how many steps it stays.
+    held: DVec2,
+    left: u32,
     /// Asked for since the camera was led last.
     fresh: DVec2,
 }
+
+/// A turn by the mouse is held for so long, in seconds of wall time, and is one of so many, in steps of the stick: a replay keeps each other
+/// turn, and three minutes by a busy hand are to go into a link. The nose comes 70 ms later for it; the camera does not.
+const HELD: f64 = 1.0 / 12.0;
+/// See [`HELD`]; each 1.7 times the one before.
+const LEVELS: [f64; 10] = [1.0, 2.0, 3.0, 5.0, 9.0, 15.0, 26.0, 44.0, 75.0, 127.0];
 
 /// A turn that waits is at most this large, in radians, so that the ship stops soon after the hand.
 const MOST_WAITING: f64 = 0.5;
@@ -50,22 +59,29 @@ impl MouseTurn {
     }
 
     /// The turn of the stick (pitch, yaw, roll, each in [−1, 1]) for the coming step: that of the `keys`, and as much of what waits as the
-    /// ship can turn and stop again in time. `turning` are its body rates (rad per proper r_s/c), `span` is the proper time of the step.
-    pub fn pull(&mut self, keys: DVec3, engine: &Engine, turning: DVec3, span: f64) -> DVec3 {
-        let (most, gains) = (engine.fastest_turn(), engine.turn_acceleration() * span);
-        let left = self.waiting.length();
+    /// ship can turn and stop again in time. `turning` are its body rates (rad per proper r_s/c); the step takes `span` of proper time and
+    /// `seconds` of wall time.
+    pub fn pull(&mut self, keys: DVec3, engine: &Engine, turning: DVec3, span: f64, seconds: f64) -> DVec3 {
         self.flown = DVec2::ZERO;
-        // Less than half a step of the stick in one step is none.
-        if span <= 0.0 || self.waiting.abs().max_element() < 0.5 / PlayerCommands::FULL * most * span {
-            (self.waiting, self.by_keys) = (DVec2::ZERO, None);
-            return keys;
+        let most = engine.fastest_turn();
+        let by_mouse = (turning - self.by_keys.unwrap_or(turning)).truncate();
+        if self.left == 0 {
+            let steps = (HELD / seconds).round().max(1.0);
+            // What would need less than the least turn is none.
+            let least = LEVELS[0] / PlayerCommands::FULL * most * span * steps;
+            if span <= 0.0 || self.waiting.abs().max_element() < least && by_mouse.length() < engine.turn_acceleration() * span {
+                (self.waiting, self.by_keys, self.held) = (DVec2::ZERO, None, DVec2::ZERO);
+                return keys;
+            }
+            // Of both axes together the ship gains no more than of one.
+            let gain = engine.turn_acceleration() * span / std::f64::consts::SQRT_2;
+            let rate = |axis: usize| eased(self.waiting[axis] / span, by_mouse[axis], gain, steps);
+            self.held = DVec2::new(rate(0), rate(1)).map(|rate| level(rate / most));
+            self.left = if self.held == DVec2::ZERO { 1 } else { steps as u32 };
         }
-        // From the rate ω it stops after ω + (ω − a) + (ω − 2a) + … = ω²/2a + ω/2 steps' worth of turn, a being what the rate changes by.
-        let steps = left / span;
-        let rate = ((0.25 * gains * gains + 2.0 * gains * steps).sqrt() - 0.5 * gains).min(steps);
-        let wanted = (self.waiting * (rate / (left * most))).clamp(DVec2::NEG_ONE, DVec2::ONE);
+        self.left -= 1;
+        let stick = (keys + self.held.extend(0.0)).clamp(DVec3::NEG_ONE, DVec3::ONE);
         // In the steps that commands are kept in.
-        let stick = (keys + wanted.extend(0.0)).clamp(DVec3::NEG_ONE, DVec3::ONE);
         let stick = (stick * PlayerCommands::FULL).round() / PlayerCommands::FULL;
         let by_keys = engine.turn(keys * most, self.by_keys.unwrap_or(turning), span);
         let by_mouse = (engine.turn(stick * most, turning, span) - by_keys).truncate() * span;
@@ -77,11 +93,29 @@ impl MouseTurn {
     }
 }
 
+/// The rate (rad per r_s/c) at which to turn for `steps` steps, so that the ship can stop in time after it. It has still to turn by `waiting`
+/// (rad per r_s/c, for one step), turns at the rate `now`, and changes that by at most `gain` in a step.
+fn eased(waiting: f64, now: f64, gain: f64, steps: f64) -> f64 {
+    let (way, now) = (waiting.signum(), now * waiting.signum());
+    // Stopped at once it turns on by (ω − a) + (ω − 2a) + … = ω²/2a − ω/2.
+    let coast = 0.5 * now * (now.abs() / gain - 1.0).max(0.0);
+    let (beyond, now) = (waiting.abs() - coast, now.max(0.0));
+    let rate = if beyond > steps * now { (beyond + now * now / gain) / (steps + now / gain) } else { beyond / steps };
+    way * rate.max(0.0)
+}
+
+/// The greatest of the [`LEVELS`] that is not beyond `share` of the fastest turn, as such a share.
+fn level(share: f64) -> f64 {
+    let asked = share.abs() * PlayerCommands::FULL;
+    let level = LEVELS.into_iter().rev().find(|&level| level <= asked).unwrap_or(0.0);
+    level.copysign(share) / PlayerCommands::FULL
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// The wall time of a step at the usual pace, in seconds, and T of it.
+    /// T of a step, in r_s/c.
     const STEP: f64 = 1.0 / 32.0;
 
     fn engine(pace: f64) -> Engine {
@@ -92,7 +126,7 @@ mod tests {
     fn flown(turn: &mut MouseTurn, pace: f64, steps: usize) -> Vec<DVec2> {
         let (engine, mut turning, mut sum) = (engine(pace), DVec3::ZERO, DVec2::ZERO);
         let step = |_| {
-            let stick = turn.pull(DVec3::ZERO, &engine, turning, STEP);
+            let stick = turn.pull(DVec3::ZERO, &engine, turning, STEP, STEP / pace);
             turning = engine.turn(stick * engine.fastest_turn(), turning, STEP);
             sum += turning.truncate() * STEP;
             sum
@@ -110,7 +144,8 @@ mod tests {
             let asked = DVec2::new(0.04, -0.1);
             assert!((turn.waiting - asked).length() < 1e-12);
             let way = flown(&mut turn, pace, 64);
-            assert!((way[63] - asked).length() < 3e-4, "{pace}: {}", way[63]);
+            // Half a pixel of the mouse.
+            assert!((way[63] - asked).length() < 1e-3, "{pace}: {}", way[63]);
             assert!(way.iter().all(|turn| turn.dot(asked) <= asked.length_squared() * 1.02), "{pace}: it swings over");
             assert_eq!(turn.waiting, DVec2::ZERO);
         }
@@ -118,7 +153,7 @@ mod tests {
         (config.controls.invert_x, config.controls.invert_y) = (true, true);
         other.push(Vec2::new(50.0, -20.0), &config);
         assert!((other.waiting + DVec2::new(0.04, -0.1)).length() < 1e-12);
-        assert_eq!(other.pull(DVec3::Z, &engine(1.5), DVec3::ZERO, 0.0), DVec3::Z);
+        assert_eq!(other.pull(DVec3::Z, &engine(1.5), DVec3::ZERO, 0.0, 1.0), DVec3::Z);
     }
 
     /// Keys held together ask for more than a body turns; after them the ship turns on by no more than the mouse asked for.
@@ -130,7 +165,7 @@ mod tests {
                 let mut turn = MouseTurn::default();
                 turn.push(Vec2::new(pixels, 0.0), &GameConfig::default());
                 for k in 0..300 {
-                    let stick = turn.pull(if k < 100 { keys } else { DVec3::ZERO }, &engine, turning, STEP);
+                    let stick = turn.pull(if k < 100 { keys } else { DVec3::ZERO }, &engine, turning, STEP, STEP / pace);
                     turning = engine.turn(stick * engine.fastest_turn(), turning, STEP);
                     sum += turning.truncate() * STEP;
                 }
@@ -165,7 +200,7 @@ mod tests {
     #[test]
     fn the_nose_lags_behind_the_hand() {
         let config = GameConfig::default();
-        for (pace, allowed) in [(3.0, 120.0), (1.5, 120.0), (0.75, 250.0), (0.375, 500.0), (0.09375, 2_000.0)] {
+        for (pace, allowed) in [(3.0, 160.0), (1.5, 160.0), (0.75, 300.0), (0.375, 500.0), (0.09375, 2_000.0)] {
             let (engine, mut turning, mut sum) = (engine(pace), DVec3::ZERO, 0.0);
             let (mut turn, mut asked, mut behind, mut free) = (MouseTurn::default(), 0.0, 0.0, (0.0, 0.0));
             let seconds = STEP / pace;
@@ -174,10 +209,11 @@ mod tests {
                 let hand = 0.2 * ((time + seconds) / 0.1).min(1.0);
                 turn.push(Vec2::new(-((hand - asked) / 0.002) as f32, 0.0), &config);
                 asked = hand;
-                let stick = turn.pull(DVec3::ZERO, &engine, turning, STEP);
+                let stick = turn.pull(DVec3::ZERO, &engine, turning, STEP, STEP / pace);
                 turning = engine.turn(stick * engine.fastest_turn(), turning, STEP);
                 sum += turning.y * STEP;
-                behind += (hand - sum) * seconds;
+                // What is given up in the end is not waited for.
+                behind += if turn.waiting == DVec2::ZERO { 0.0 } else { (hand - sum) * seconds };
                 // Without bounds: the rate that was asked for by the second, at once.
                 free.0 += (hand - free.0).min(1.2 * seconds);
                 free.1 += (hand - free.0) * seconds;

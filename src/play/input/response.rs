@@ -1,8 +1,9 @@
 //! From a stick's way to what is done: dead zone and curve.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::scene::config::Controls;
+use crate::sim::assist::Stick;
 
 /// How a stick answers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,6 +37,17 @@ impl Response {
     }
 }
 
+/// The sticks after `before`, with `asked` for now. A thumb trembles: what differs by less than a thirtieth of the whole way and a sixth of
+/// its own stays as it was, but for rest and the end. So a replay keeps what was meant.
+pub fn steadied(before: &Stick, asked: &Stick) -> Stick {
+    let axis = |before: f64, asked: f64| {
+        let trembles = asked != 0.0 && asked.abs() < 1.0 && (asked - before).abs() < (before.abs() / 6.0).max(1.0 / 30.0);
+        if trembles { before } else { asked }
+    };
+    let each = |before: DVec3, asked: DVec3| DVec3::from_array(std::array::from_fn(|k| axis(before[k], asked[k])));
+    Stick { thrust: each(before.thrust, asked.thrust), turn: each(before.turn, asked.turn) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -47,6 +59,20 @@ mod tests {
         assert!((response.answer(0.6) - 0.25).abs() < 1e-12);
         let steps: Vec<f64> = (0..=100).map(|k| response.answer(f64::from(k) / 100.0)).collect();
         assert!(steps.windows(2).all(|pair| pair[1] >= pair[0] && pair[1] - pair[0] < 0.03));
+    }
+
+    /// A push of half the way by a trembling thumb is one.
+    #[test]
+    fn what_trembles_stays() {
+        let mut stick = Stick::default();
+        let asked = |k: u32| 0.5 + 0.03 * f64::from(k % 7).sin();
+        let mut pushes: Vec<f64> = (0..50).map(asked).chain([0.2, 0.21, 0.0, 0.01, 0.99, 1.0]).collect();
+        for push in &mut pushes {
+            stick = steadied(&stick, &Stick { thrust: DVec3::X * *push, turn: DVec3::ZERO });
+            *push = stick.thrust.x;
+        }
+        pushes.dedup();
+        assert_eq!(pushes, [0.5, 0.2, 0.0, 0.99, 1.0]);
     }
 
     #[test]

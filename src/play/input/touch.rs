@@ -1,5 +1,4 @@
-//! Fingers on the screen in play: two sticks, buttons, a drag that turns the ship as the mouse does, and in a replay a pinch for the
-//! distance.
+//! Fingers on the screen in play: two sticks, buttons, a drag that turns the ship as the mouse does, a pinch for the camera's distance.
 //!
 //! A stick stands where its finger went down, within its field at the side of the screen: the left one thrusts, the right one turns.
 

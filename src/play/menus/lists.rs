@@ -120,7 +120,9 @@ fn result(world: &World, session: &Session) -> Vec<Entry> {
     entries.push(ask(language, "another", "menu-another", MenuAction::Start));
     if kept {
         entries.push(ask(language, "watch", "menu-watch", MenuAction::Watch));
-        entries.push(ask(language, "share", "menu-share", MenuAction::Share));
+        let share = ask(language, "share", "menu-share", MenuAction::Share);
+        let long = last.is_some_and(|last| matches!(last.link, Some(Err(_))));
+        entries.push(if long { share.valued(language.say("menu-share-long")) } else { share });
     }
     entries.push(ask(language, "title", "menu-title", MenuAction::Title));
     entries.push(ask(language, "quit", "menu-quit", MenuAction::Quit));

@@ -82,11 +82,12 @@ fn point_camera(
     // Who does not fly by hand sees where the flight is to lead.
     let watches = player.autopilot && player.pilot != Some(PilotKind::Hands) || playback.is_some();
     let sought = now.target().filter(|_| (player.looking || watches) && sight == ScreenContent::Own);
-    let facing = sought.and_then(|(_, target)| player.gaze.facing(&state, player.view, now.session.length(me), attitude, time, target));
+    let length = now.session.length(me) * player.orbit.zoom();
+    let facing = sought.and_then(|(_, target)| player.gaze.facing(&state, player.view, length, attitude, time, target));
     let attitude = player.gaze.turned(attitude, facing, seconds, video.reduced_motion);
-    let (attitude, zoom) = if playback.is_some() { (player.orbit.attitude(attitude), player.orbit.zoom()) } else { (attitude, 1.0) };
+    let attitude = player.orbit.attitude(attitude);
     shot.0 = Some(match (sight, now.target()) {
-        (ScreenContent::Own, _) => FrameCamera::own(me, &state, player.view, attitude, now.session.length(me) * zoom, field_of_view),
+        (ScreenContent::Own, _) => FrameCamera::own(me, &state, player.view, attitude, length, field_of_view),
         (ScreenContent::Caught, Some((caught, history))) => {
             FrameCamera::caught((caught, history, now.session.length(caught)), state.position, time, field_of_view)
         }

@@ -1,4 +1,5 @@
-//! A replay as the end of an address, `#flight=…`: its text without what goes without saying, DEFLATE, Base64 for addresses.
+//! A replay as the end of an address, `#flight=…`: its values without their keys and what goes without saying, DEFLATE,
+//! Base64 for addresses.
 
 use std::io::Read as _;
 use std::path::Path;
@@ -16,6 +17,10 @@ pub const MARK: &str = "#flight=";
 pub const MOST_LINK: usize = 1900;
 /// The most bytes of a replay's text in a link.
 const MOST_TEXT: u64 = 64 << 10;
+/// The lines of that text, in their order.
+const KEYS: [&str; 13] = [
+    "replay", "version", "scene", "fingerprint", "difficulty", "pilot", "seed", "ticks", "outcome", "hash", "settings", "log", "check",
+];
 
 impl Replay {
     /// The link, or how many characters it would have where that is too many.
@@ -24,9 +29,10 @@ impl Replay {
         let is_usual = |path: &str, value| config::setting(path).is_some_and(|setting| setting.get(&usual) == value);
         let settings = self.settings.iter().filter(|(path, value)| !is_usual(path, value.clone())).cloned().collect();
         let text = Replay { settings, ..self.clone() }.to_text();
+        let values: Vec<&str> = text.lines().filter_map(|line| Some(line.split_once(" = ")?.1)).collect();
         let mut packed = Vec::new();
         // Reading from memory does not fail.
-        _ = ZlibEncoder::new(text.as_bytes(), Compression::best()).read_to_end(&mut packed);
+        _ = ZlibEncoder::new(values.join("\n").as_bytes(), Compression::best()).read_to_end(&mut packed);
         let link = format!("{MARK}{}", BASE64URL_NOPAD.encode(&packed));
         if link.len() > MOST_LINK { Err(link.len()) } else { Ok(link) }
     }
@@ -41,9 +47,10 @@ impl Replay {
         }
         let cut = || damaged("it is cut or changed: its letters are no flight");
         let packed = BASE64URL_NOPAD.decode(code.as_bytes()).map_err(|_| cut())?;
-        let mut text = String::new();
-        ZlibDecoder::new(&packed[..]).take(MOST_TEXT).read_to_string(&mut text).map_err(|_| cut())?;
-        let replay = Replay::from_text(path, &text)?;
+        let mut values = String::new();
+        ZlibDecoder::new(&packed[..]).take(MOST_TEXT).read_to_string(&mut values).map_err(|_| cut())?;
+        let text: Vec<String> = KEYS.iter().zip(values.lines()).map(|(key, value)| format!("{key} = {value}\n")).collect();
+        let replay = Replay::from_text(path, &text.concat())?;
         // What was left out is as usual, in the order in which flights have it.
         let usual = GameConfig::default();
         let all = config::settings().iter().filter(|setting| super::SECTIONS.contains(&setting.section));

@@ -1,6 +1,6 @@
 //! Replays: a flight as the list of the player's commands, from which it is flown again to the same bits.
 //!
-//! A replay is a TOML file. Its `log` holds the records, packed (column by column, differences, DEFLATE, Base64); `check` is the CRC-32 of
+//! A replay is a TOML file. Its `log` holds the records, packed (column by column, DEFLATE, Base64); `check` is the CRC-32 of
 //! all lines before it. The same version of the program flies it to the same end on every machine (`./test-web`).
 
 pub mod link;
@@ -28,7 +28,7 @@ use packing::{MOST_BYTES, pack, unpack};
 pub use packing::Record;
 
 /// The version of the format.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 /// The most steps of a flight: up to T = 1e5 r_s/c with the usual step. Each takes some 180 bytes a ship when it is flown again.
 pub const MOST_STEPS: u64 = 3_200_001;
 /// The sections of `game.toml` that a flight depends on.
@@ -442,7 +442,7 @@ mod tests {
         let mut records = restless();
         records.truncate(500);
         let all = PlayerCommands { pace: 0.375, fire: true, looking: true, autopilot: true, ..records[300].commands };
-        records[300].commands = PlayerCommands { assist: AssistMode::Target, matching: true, ..all };
+        records[300].commands = PlayerCommands { assist: AssistMode::Target, matching: true, facing: true, ..all };
         records[301].commands.assist = AssistMode::Off;
         let before = replay(records);
         assert_eq!(Replay::from_text(Path::new("x"), &before.to_text()).expect("a replay"), before);
@@ -464,7 +464,7 @@ mod tests {
         let middle = good.len() / 2;
         let mut wrong = vec![String::new(), "x".into(), good[..middle].to_owned(), good.replace("seed = 7", "seed = 8")];
         wrong.push(good.replace("version = \"", "version = \"9"));
-        wrong.push(good.replace("replay = 2", "replay = 3"));
+        wrong.push(good.replace("replay = 3", "replay = 2"));
         for (place, text) in wrong.iter().enumerate() {
             let said = Replay::from_text(Path::new("a.toml"), text).expect_err("refused").to_string();
             assert!(said.starts_with("a.toml: ") && !said.contains('\n'), "{place}: {said}");

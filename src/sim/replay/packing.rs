@@ -1,4 +1,4 @@
-//! The records of a replay, and how they are packed: column by column, each number less the one before, then DEFLATE.
+//! The records of a replay, and how they are packed: column by column, then DEFLATE.
 
 use std::io::Read as _;
 
@@ -19,26 +19,29 @@ pub struct Record {
     pub commands: PlayerCommands,
 }
 
-/// Numbers of a record besides its pace: steps since the one before, six sticks, six switches.
-const COLUMNS: usize = 8;
+/// Bytes of a record besides its step and pace: six sticks, seven switches.
+const COLUMNS: usize = 7;
 
-/// Packs records: column by column, each number less the one before, so that what stays the same is zero.
+/// The bits of a pace that come in steps: sign, exponent and four of the rest.
+const PACE_BITS: u32 = 16;
+
+/// Packs records column by column. Sticks are as they are: a hand has some ways of its own that come again.
 pub(super) fn pack(records: &[Record]) -> Vec<u8> {
     let mut raw = Vec::new();
     raw.extend((records.len() as u64).to_le_bytes());
+    let mut before = 0u64;
+    for record in records {
+        varint(&mut raw, record.tick.wrapping_sub(before));
+        before = record.tick;
+    }
     for column in 0..COLUMNS {
-        let mut before = 0u64;
-        for record in records {
-            let value = column_of(record, column);
-            let change = value.wrapping_sub(before);
-            before = value;
-            if column == 0 { varint(&mut raw, change) } else { raw.push(change as u8) }
-        }
+        raw.extend(records.iter().map(|record| bytes_of(&record.commands)[column]));
     }
     let mut before = 0u64;
     for record in records {
         let bits = record.commands.pace.to_bits();
-        varint(&mut raw, bits ^ before);
+        // The few bits of a pace are the high ones.
+        varint(&mut raw, (bits ^ before).rotate_left(PACE_BITS));
         before = bits;
     }
     let mut packed = Vec::new();
@@ -52,81 +55,65 @@ pub(super) fn unpack(packed: &[u8]) -> Option<Vec<Record>> {
     let mut raw = Vec::new();
     ZlibDecoder::new(packed).take(MOST_BYTES).read_to_end(&mut raw).ok()?;
     let count = usize::try_from(u64::from_le_bytes(raw.get(..8)?.try_into().ok()?)).ok()?;
-    // Each takes a byte a column at least.
-    if count > raw.len() / COLUMNS {
+    // Each takes a byte a column at least, and two for step and pace.
+    if count > raw.len() / (COLUMNS + 2) {
         return None;
     }
     let mut rest = &raw[8..];
-    let mut columns = vec![[0u64; COLUMNS]; count];
-    for column in 0..COLUMNS {
-        let mut before = 0u64;
-        for row in &mut columns {
-            let change = if column == 0 {
-                read_varint(&mut rest)?
-            } else {
-                let (&byte, after) = rest.split_first()?;
-                rest = after;
-                u64::from(byte)
-            };
-            before = if column == 0 { before.checked_add(change)? } else { before.wrapping_add(change) & 0xff };
-            row[column] = before;
-        }
+    let mut tick = 0u64;
+    let mut ticks = Vec::with_capacity(count);
+    for _ in 0..count {
+        tick = tick.checked_add(read_varint(&mut rest)?)?;
+        ticks.push(tick);
     }
-    let mut before = 0u64;
+    let (columns, mut rest) = rest.split_at_checked(COLUMNS * count)?;
+    let mut bits = 0u64;
     let mut records = Vec::with_capacity(count);
-    for row in columns {
-        before ^= read_varint(&mut rest)?;
-        let pace = f64::from_bits(before);
+    for (row, &tick) in ticks.iter().enumerate() {
+        bits ^= read_varint(&mut rest)?.rotate_right(PACE_BITS);
+        let pace = f64::from_bits(bits);
         if !(pace > 0.0 && pace.is_finite()) {
             return None;
         }
-        records.push(record_of(row, pace));
+        let bytes = std::array::from_fn(|column| columns[column * count + row]);
+        records.push(Record { tick, commands: commands_of(bytes, pace) });
     }
     rest.is_empty().then_some(records)
 }
 
-/// One number of a record; sticks as their bytes.
-fn column_of(record: &Record, column: usize) -> u64 {
-    let commands = &record.commands;
-    let byte = |stick: i8| u64::from(stick as u8);
-    match column {
-        0 => record.tick,
-        1..=3 => byte(commands.thrust[column - 1]),
-        4..=6 => byte(commands.turn[column - 4]),
-        _ => [
-            commands.assist == AssistMode::Orbit,
-            commands.autopilot,
-            commands.looking,
-            commands.fire,
-            commands.assist == AssistMode::Target,
-            commands.matching,
-        ]
-        .iter()
-        .rev()
-        .fold(0, |bits, &on| 2 * bits + u64::from(on)),
-    }
+/// Commands as bytes: sticks, then switches.
+fn bytes_of(commands: &PlayerCommands) -> [u8; COLUMNS] {
+    let [right, up, back] = commands.thrust.map(|stick| stick as u8);
+    let [pitch, yaw, roll] = commands.turn.map(|stick| stick as u8);
+    let switches = [
+        commands.assist == AssistMode::Orbit,
+        commands.autopilot,
+        commands.looking,
+        commands.fire,
+        commands.assist == AssistMode::Target,
+        commands.matching,
+        commands.facing,
+    ];
+    [right, up, back, pitch, yaw, roll, switches.iter().rev().fold(0, |bits, &on| 2 * bits + u8::from(on))]
 }
 
-/// The inverse of [`column_of`].
-fn record_of(row: [u64; COLUMNS], pace: f64) -> Record {
-    let stick = |column: usize| row[column] as u8 as i8;
-    let switch = |bit: u64| row[7] >> bit & 1 == 1;
-    Record {
-        tick: row[0],
-        commands: PlayerCommands {
-            thrust: [stick(1), stick(2), stick(3)],
-            turn: [stick(4), stick(5), stick(6)],
-            assist: match (switch(0), switch(4)) {
-                (_, true) => AssistMode::Target,
-                (true, false) => AssistMode::Orbit,
-                (false, false) => AssistMode::Off,
-            },
-            autopilot: switch(1),
-            looking: switch(2),
-            fire: switch(3),
-            matching: switch(5),
-            pace,
+/// The inverse of [`bytes_of`].
+fn commands_of([right, up, back, pitch, yaw, roll, switches]: [u8; COLUMNS], pace: f64) -> PlayerCommands {
+    let switch = |bit: u8| switches >> bit & 1 == 1;
+    PlayerCommands {
+        thrust: [right, up, back].map(|byte| byte as i8),
+        turn: [pitch, yaw, roll].map(|byte| byte as i8),
+        assist: match (switch(0), switch(4)) {
+            (_, true) => AssistMode::Target,
+            (true, false) => AssistMode::Orbit,
+            (false, false) => AssistMode::Off,
         },
+        autopilot: switch(1),
+        looking: switch(2),
+        fire: switch(3),
+        matching: switch(5),
+        facing: switch(6),
+        pace,
     }
 }
 
