@@ -139,6 +139,57 @@ try {
     await tap(285, 45);
     await screen(page, "paused");
   });
+  await play("by pad: training begun, thrust", {}, async (page) => {
+    // As a browser shows a pad; there is none here.
+    await page.addInitScript(() => {
+      const buttons = Array.from({ length: 17 }, () => ({ pressed: false, touched: false, value: 0 }));
+      globalThis.pad = { id: "pad", index: 0, connected: true, mapping: "standard", axes: [0, 0, 0, 0], buttons, timestamp: 1 };
+      navigator.getGamepads = () => [globalThis.pad];
+    });
+    await page.reload();
+    const push = async () => {
+      for (const pressed of [true, false]) {
+        await page.evaluate((pressed) => Object.assign(pad.buttons[0], { pressed, value: Number(pressed) }), pressed);
+        await page.waitForTimeout(FRAME);
+      }
+    };
+    await screen(page, "warning");
+    await push();
+    await screen(page, "title");
+    await push();
+    await screen(page, "playing");
+    await page.evaluate(() => (pad.axes[1] = -1));
+    await page.waitForFunction(() => globalThis.lensrunnerSound.last[1] > 0.5);
+    assert.equal(await page.evaluate(() => document.body.dataset.hands), "pad");
+  });
+  await play("what is kept goes to a file and back; a hidden page is silent", {}, async (page) => {
+    await screen(page, "warning");
+    await press(page, "Enter");
+    await screen(page, "title");
+    const [saved] = await Promise.all([page.waitForEvent("download"), page.evaluate(() => lensrunner.save_all())]);
+    const kept = await readFile(await saved.path(), "utf8");
+    await page.evaluate(() => localStorage.clear());
+    page.on("dialog", (question) => question.accept());
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.evaluate(() => lensrunner.bring_all())]);
+    await chooser.setFiles(await saved.path());
+    await page.waitForFunction(() => localStorage.length > 0);
+    // It is loaded anew, with what was brought.
+    await screen(page, "title");
+    assert.deepEqual(await page.evaluate(() => Object.fromEntries(Object.entries(localStorage))), JSON.parse(kept));
+    await press(page, "ArrowDown");
+    const sounds = (state) => page.waitForFunction((state) => globalThis.lensrunnerSound.context?.state === state, state);
+    await sounds("running");
+    // Playwright's pages are never hidden.
+    const hide = (hidden) =>
+      page.evaluate((hidden) => {
+        Object.defineProperty(document, "hidden", { value: hidden, configurable: true });
+        document.dispatchEvent(new Event("visibilitychange"));
+      }, hidden);
+    await hide(true);
+    await sounds("suspended");
+    await hide(false);
+    await sounds("running");
+  });
   const links = { flight: FLIGHT, forged: `${FLIGHT.slice(0, 60)}A${FLIGHT.slice(61)}` };
   await play("a link: the flight is shown; a forged one is refused", {}, async (page) => {
     const openAt = async (link) => {
@@ -170,6 +221,11 @@ try {
     await refused((other) => other.route("**/table.bin", (route) => route.abort()), "did not arrive");
     const lose = () => setTimeout(() => globalThis.lensrunnerDevice.destroy(), 6000);
     await refused((other) => other.addInitScript(lose), "device was lost");
+    const fill = () => {
+      const full = () => Promise.reject(new RangeError("WebAssembly.Memory(): could not allocate memory"));
+      WebAssembly.instantiateStreaming = WebAssembly.instantiate = full;
+    };
+    await refused((other) => other.addInitScript(fill), "not enough memory");
     // Tablets have no pointer lock.
     const tablet = await browser.newPage();
     await tablet.addInitScript(() => delete Element.prototype.requestPointerLock);

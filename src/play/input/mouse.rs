@@ -23,7 +23,7 @@ pub struct MouseTurn {
 }
 
 /// A turn by the mouse is held for so long, in seconds of wall time, and is one of so many, in steps of the stick: a replay keeps each other
-/// turn, and three minutes by a busy hand are to go into a link. The nose comes 70 ms later for it; the camera does not.
+/// turn, and two minutes by a busy hand are to go into a link. The nose comes 70 ms later for it; the camera does not.
 const HELD: f64 = 1.0 / 12.0;
 /// See [`HELD`]; each 1.7 times the one before.
 const LEVELS: [f64; 10] = [1.0, 2.0, 3.0, 5.0, 9.0, 15.0, 26.0, 44.0, 75.0, 127.0];
