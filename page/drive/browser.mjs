@@ -79,8 +79,8 @@ export const screen = (page, name, seconds = 180) =>
 export async function fingers(page) {
   const session = await page.context().newCDPSession(page);
   const down = new Map();
-  const send = (type) => {
-    const touchPoints = [...down].map(([id, [x, y]]) => ({ id, x, y }));
+  const send = (type, fingers = [...down]) => {
+    const touchPoints = fingers.map(([id, [x, y]]) => ({ id, x, y }));
     return session.send("Input.dispatchTouchEvent", { type, touchPoints });
   };
   return {
@@ -92,9 +92,11 @@ export async function fingers(page) {
       down.set(id, [x, y]);
       return send("touchMove");
     },
+    // Those that are named go, and none named means all.
     lift(id) {
+      const at = down.get(id);
       down.delete(id);
-      return send("touchEnd");
+      return send("touchEnd", down.size > 0 ? [[id, at]] : []);
     },
   };
 }

@@ -210,12 +210,12 @@ globalThis.lensrunner = {
     chooser.onchange = () => bring(chooser.files[0]);
     chooser.click();
   }),
-  share(link) {
+  share: safely((link) => {
     const address = location.origin + location.pathname + link;
     // Where the clipboard is forbidden the player copies it.
     const shown = () => prompt(say.copy, address);
     navigator.clipboard ? navigator.clipboard.writeText(address).catch(shown) : shown();
-  },
+  }),
   begun() {
     at("loading").hidden = true;
     // A flight that was opened is opened once.
