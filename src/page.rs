@@ -27,8 +27,9 @@ extern "C" {
     /// A scene is drawn from now on.
     pub fn drawn();
 
-    /// This screen is shown from now on: `title`, `playing`, `paused`, `result`, `photo`, `warning`; `won` after a flight that was.
-    pub fn screen(name: &str, won: bool);
+    /// This screen is shown from now on: `title`, `playing`, `paused`, `result`, `photo`, `warning`; `won` after a flight that was;
+    /// `watched` while one is shown that was flown before.
+    pub fn screen(name: &str, won: bool, watched: bool);
 
     /// The game cannot go on, for this reason: the page says so, and what can be done.
     pub fn ended(why: &str);

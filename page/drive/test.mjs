@@ -200,12 +200,15 @@ try {
     await screen(page, "warning");
     await press(page, "Enter");
     await screen(page, "playing");
+    const watched = () => page.evaluate(() => document.body.dataset.watched === "true");
+    assert.ok(await watched(), "the flight of the link, and no new one");
     assert.equal(await page.evaluate(() => location.hash), "", "a flight that was opened is opened once");
     await openAt(links.forged);
     await screen(page, "title");
     // Pasted into the address of a game that runs.
     await page.evaluate((link) => (location.hash = link), links.flight);
     await screen(page, "playing");
+    assert.ok(await watched());
   });
   await play("refusals: without WebGPU, without an adapter, without a file", {}, async (page, browser) => {
     const refused = async (prepare, sentence) => {

@@ -35,7 +35,8 @@ pub async fn play(table: Vec<u8>, shaders: String, address: String) -> Result<()
     if address.contains(MARK) {
         let flight = Replay::from_link(&address).and_then(|replay| replay.scene(Path::new("the link"), None).map(|_| replay));
         // The title is there all the same.
-        flight.map_or_else(|error| options.said = Some(error.to_string()), |replay| options.replay = Some(replay));
+        options.replay = flight.ok();
+        options.refused_link = options.replay.is_none();
     }
     let scene = options.replay.as_ref().map(|replay| replay.scene.as_str());
     let mut session = Session::load(None, scene, None)?;
@@ -44,7 +45,6 @@ pub async fn play(table: Vec<u8>, shaders: String, address: String) -> Result<()
         keys.parse::<Assignment>().map_err(|error| JsError::new(&error))?.apply(&mut session.config);
     }
     if let Some(replay) = &options.replay {
-        session.config = replay.config(&session.config);
         (session.difficulty, session.seed) = (replay.difficulty, replay.seed);
     }
     // It goes on after this: the page calls it for each frame.

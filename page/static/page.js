@@ -231,8 +231,8 @@ globalThis.lensrunner = {
   drawn() {
     document.body.dataset.drawn = performance.now();
   },
-  screen(name, won) {
-    Object.assign(document.body.dataset, { screen: name, won });
+  screen(name, won, watched) {
+    Object.assign(document.body.dataset, { screen: name, won, watched });
   },
   ended(cause) {
     refuse(say.failed, cause);

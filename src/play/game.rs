@@ -2,9 +2,10 @@
 
 use bevy::prelude::*;
 
+use crate::scene::pilot_kind::PilotKind;
 use crate::sim::assist::Stick;
 use crate::sim::by_hand::choose_pilot;
-use crate::sim::replay::Playback;
+use crate::sim::replay::{Playback, Replay};
 use crate::sim::ship::Player;
 use crate::sim::target::Targets;
 use crate::sim::{Chase, Clock, Engine, Fleet, PlayerCommands, ShipMotion, SimSet, Turning, board, outcome, start};
@@ -20,7 +21,7 @@ use crate::play::input::{ControlsPlugin, PlayerInput};
 use crate::play::menus::MenuModelPlugin;
 use crate::play::menus::navigate::FileConfig;
 use crate::play::menus::screens::{MenuAction, Screen, answer};
-use crate::play::missions::{Catalogue, LastFlight, Watched, begin_log};
+use crate::play::missions::{BeforeWatching, Catalogue, LastFlight, Watched, begin_log};
 use crate::play::pace::{PacePlugin, Slowing, run_time};
 use crate::play::photo::PhotoPlugin;
 use crate::play::picture::stage_loading::change_scene;
@@ -44,11 +45,7 @@ impl Plugin for GamePlugin {
             .add_systems(
                 Update,
                 (
-                    (
-                        read_keys,
-                        lead_camera.run_if(resource_exists::<Playback>),
-                        pinch_camera.run_if(not(resource_exists::<Playback>)),
-                    )
+                    (read_keys, lead_camera.run_if(resource_exists::<Playback>), pinch_camera.run_if(not(resource_exists::<Playback>)))
                         .chain()
                         .in_set(GameSet::Keys),
                     (answer_menus, end_chase, run_time).chain().in_set(GameSet::Answer),
@@ -98,6 +95,7 @@ fn choose_scene(world: &mut World, screen: Screen) {
     let PlayerState { choice, free, .. } = *world.resource::<PlayerState>();
     let same_start = std::mem::take(&mut world.resource_mut::<PlayerState>().same_start);
     let watched = world.get_resource::<Watched>().map(|watched| watched.0.clone()).filter(|_| screen == Screen::Playing);
+    keep_own_settings(world, watched.is_some());
     let mut session = world.resource_mut::<Session>();
     let before = (session.scene.name.clone(), session.scene.fingerprint);
     match (&watched, screen) {
@@ -122,6 +120,18 @@ fn choose_scene(world: &mut World, screen: Screen) {
         if watched.is_none() {
             restore_pace(world);
         }
+    }
+}
+
+/// A flight that is watched brings the settings that it was flown by; the player's own are there again after it.
+fn keep_own_settings(world: &mut World, watches: bool) {
+    let session = world.resource::<Session>();
+    if watches {
+        let own = Replay::begin(&session.scene, &session.config, session.difficulty, PilotKind::Expert, session.seed);
+        world.get_resource_or_insert_with(|| BeforeWatching(own));
+    } else if let Some(own) = world.remove_resource::<BeforeWatching>() {
+        let mut session = world.resource_mut::<Session>();
+        session.config = own.0.config(&session.config);
     }
 }
 
@@ -168,6 +178,8 @@ fn answer_menus(world: &mut World) {
                 world.remove_resource::<Watched>();
                 world.resource_mut::<PlayerState>().same_start = true;
             }
+            // A flight that was opened is shown when the warning is read.
+            MenuAction::Title if *world.resource::<State<Screen>>().get() == Screen::Warning => (),
             MenuAction::Start | MenuAction::Title => _ = world.remove_resource::<Watched>(),
             #[cfg(target_family = "wasm")]
             MenuAction::SaveAll => crate::page::save_all(),

@@ -73,6 +73,10 @@ impl Catalogue {
 #[derive(Resource, Clone, Debug)]
 pub struct Watched(pub Replay);
 
+/// The settings of the player, while a flight is watched that was flown by others: a flight of no step.
+#[derive(Resource, Clone, Debug)]
+pub struct BeforeWatching(pub Replay);
+
 /// The flight behind the title, which no hands fly.
 #[derive(Resource, Clone, Debug)]
 pub struct TitleFlight(pub Replay);

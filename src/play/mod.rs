@@ -242,7 +242,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
             replay,
             at_once: args.at_once,
             data: None,
-            said: None,
+            refused_link: false,
             verbose: args.verbose,
             timings: args.timings.clone().map(|file| (file, started)),
         };

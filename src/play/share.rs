@@ -42,13 +42,18 @@ fn copy(world: &mut World, link: &str) {
 
 #[cfg(test)]
 mod tests {
+    use crate::play::game::begin;
     use crate::play::game::tests::game_of;
     use crate::play::input::mouse::MouseTurn;
     use crate::play::input::tests::press_key;
+    use crate::play::menus::screens::Screen;
+    use crate::play::missions::{Catalogue, Watched};
     use crate::play::player_state::{Flown, PlayerState};
     use crate::play::session::Session;
     use crate::scene::GameConfig;
+    use crate::sim::Clock;
     use crate::sim::replay::{Replay, ReplayLog};
+    use crate::sim::run::state_hash;
     use bevy::input::ButtonState;
     use bevy::prelude::*;
     use rand::{RngExt, SeedableRng, rngs::StdRng};
@@ -101,7 +106,7 @@ mod tests {
     #[test]
     fn minutes_by_hand_go_into_a_link() {
         for (minutes, rest) in [(2, 60), (3, 120)] {
-            let flight = flown(60 * 60 * minutes, rest);
+            let (_, flight) = flown(60 * 60 * minutes, rest, false);
             let link = flight.to_link();
             println!("{minutes} minutes, {} commands, {} steps: {:?}", flight.records.len(), flight.ticks, link.as_ref().map(String::len));
             let again = Replay::from_link(&link.expect("it goes into a link")).expect("a flight");
@@ -110,8 +115,36 @@ mod tests {
         }
     }
 
-    /// So many frames of a sixtieth of a second, by a hand that rests so many of them between two flicks.
-    fn flown(frames: u32, rest: u32) -> Replay {
+    /// Watched in the game, with the pace turned up, a flight by hand and autopilot comes to the same end as it had; after it the player's own
+    /// pace is there again.
+    #[test]
+    fn a_flight_that_is_watched_is_the_one_that_was_flown() {
+        let (mut app, flight) = flown(60 * 50, 60, true);
+        app.world_mut().resource_mut::<Session>().config.clock.pace = 0.9;
+        let (catalogue, _) = Catalogue::read(app.world().resource::<Session>().scene.clone());
+        let free = catalogue.missions.len();
+        app.insert_resource(catalogue);
+        app.world_mut().resource_mut::<PlayerState>().choice = free;
+        app.insert_resource(Watched(flight.clone()));
+        begin(app.world_mut(), Screen::Playing);
+        for frame in 0..200_000 {
+            app.update();
+            if frame == 100 {
+                app.world_mut().resource_mut::<Session>().config.clock.pace *= 1.25;
+            }
+            if app.world().resource::<Clock>().tick == flight.ticks {
+                break;
+            }
+        }
+        assert_eq!((app.world().resource::<Clock>().tick, state_hash(app.world()).to_string()), (flight.ticks, flight.hash));
+        app.world_mut().remove_resource::<Watched>();
+        begin(app.world_mut(), Screen::Playing);
+        assert_eq!(app.world().resource::<Session>().config.clock.pace, 0.9);
+    }
+
+    /// So many frames of a sixtieth of a second, by a hand that rests so many of them between two flicks, and for the last quarter by the
+    /// autopilot, if at all.
+    fn flown(frames: u32, rest: u32, with_autopilot: bool) -> (App, Replay) {
         let mut app = game_of(Duration::from_micros(16_667));
         app.insert_resource(Session::load(None, Some("chase"), Some(1)).expect("the game's own"));
         app.update();
@@ -123,7 +156,11 @@ mod tests {
         let key = |key, up, down| (key, false, 60, [up, down]);
         let keys = [key(KeyCode::KeyW, 60..300, 20..90), key(KeyCode::KeyS, 200..900, 10..60), key(KeyCode::KeyF, 600..1200, 90..180)];
         let mut hand = Hand { chance: StdRng::seed_from_u64(1), flick: (Vec2::ZERO, 1.0, 1.0), gone: Vec2::ZERO, rest, keys };
-        for _ in 0..frames {
+        for frame in 0..frames {
+            // The autopilot takes over for the last quarter.
+            if with_autopilot && frame == 3 * frames / 4 {
+                app.world_mut().resource_mut::<PlayerState>().autopilot = true;
+            }
             let pixels = hand.moves();
             app.world_mut().resource_mut::<MouseTurn>().push(pixels, &GameConfig::default());
             hand.presses(&mut app);
@@ -131,7 +168,7 @@ mod tests {
         }
         let mut flight = app.world().resource::<ReplayLog>().0.clone();
         flight.finish(app.world());
-        assert_eq!(app.world().resource::<PlayerState>().flown, Flown { by_hand: true, by_autopilot: false });
-        flight
+        assert_eq!(app.world().resource::<PlayerState>().flown, Flown { by_hand: true, by_autopilot: with_autopilot });
+        (app, flight)
     }
 }

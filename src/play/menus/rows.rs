@@ -4,12 +4,14 @@ use bevy_egui::egui::{self, Align2, Color32, FontId, Rect, Sense, Stroke, Stroke
 
 use crate::play::hud::paint::{ALARM, FAINT, TEXT, TRUE};
 use crate::play::hud::palette::Palette;
-use crate::play::menus::entries::{Does, Entry, Menu, SLOTS, Touch};
+use crate::play::menus::entries::{Does, Entry, Menu, SLOTS, Touch, Way};
 
 /// Height of a row of one line, in points.
 const ROW: f32 = 25.0;
 /// Size of its letters, in points.
 const LETTERS: f32 = 14.5;
+/// Size of a value's, in points.
+const VALUE: f32 = 13.0;
 /// Space between a row's edge and its words, in points.
 const PAD: f32 = 8.0;
 /// Width of a bar that is turned, in points.
@@ -75,6 +77,17 @@ pub(super) fn row(ui: &mut Ui, menu: &mut Menu, place: usize, moved: bool) {
     if response.clicked() && entry.share.is_none() {
         let chooses = matches!(entry.does, Does::Fly(_)) && !has_focus;
         menu.touched.push(Touch::Focus(place, column));
+        // Free flight names its scene between arrows, which are touched.
+        let arrows = (has_focus && entry.id == "free").then(|| columns.first()).flatten().zip(at);
+        if let Some(((left, wide), at)) = arrows.filter(|((left, _), at)| at.x - frame.left() > *left) {
+            let words = entry
+                .values
+                .first()
+                .map_or(0.0, |words| ui.painter().layout_no_wrap(format!("‹ {words} ›"), FontId::proportional(VALUE), colour).size().x);
+            let middle = frame.left() + left + wide - 0.5 * words.min(*wide);
+            menu.touched.push(Touch::Step(if at.x < middle { Way::Left } else { Way::Right }));
+            return;
+        }
         // A mission is looked at by the first click and flown by the second.
         if !chooses {
             menu.touched.push(Touch::Confirm);
@@ -135,7 +148,7 @@ fn value(painter: &egui::Painter, cell: Rect, entry: &Entry, k: usize, chosen: b
     let words = if turns { format!("‹ {words} ›") } else { words.to_owned() };
     let anchor = if is_column { Align2::CENTER_CENTER } else { Align2::RIGHT_CENTER };
     let at = if is_column { cell.center() } else { cell.right_center() };
-    let mut size = 13.0;
+    let mut size = VALUE;
     let mut galley = painter.layout_no_wrap(words.clone(), FontId::proportional(size), colour);
     // Long names of buttons grow smaller before they are cut.
     while galley.size().x > cell.width() && size > 8.0 {
@@ -152,7 +165,6 @@ fn value(painter: &egui::Painter, cell: Rect, entry: &Entry, k: usize, chosen: b
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::play::menus::entries::Way;
     use crate::play::menus::screens::MenuAction;
     use bevy_egui::egui::{Area, Context, Event, Id, Modifiers, PointerButton, Pos2, RawInput};
 

@@ -83,9 +83,11 @@ pub(super) fn camera_hint(prompts: Prompts) -> String {
     let [near, far, back, slow, fast] = [Action::ThrustForward, Action::ThrustBack, Action::LookAtTarget, Action::Slower, Action::Faster]
         .map(|action| prompts.button(action));
     let language = prompts.language;
+    let by_finger = prompts.device == Device::Touch;
+    let nearer = language.fill("replay-nearer", &[("near", near.as_str()), ("far", far.as_str())]);
     let words = [
-        language.say("replay-round"),
-        language.fill("replay-nearer", &[("near", near.as_str()), ("far", far.as_str())]),
+        language.say(if by_finger { "replay-round-touch" } else { "replay-round" }),
+        if by_finger { language.say("replay-pinch") } else { nearer },
         language.fill("replay-back", &[("button", back.as_str())]),
         language.fill("replay-pace", &[("slow", slow.as_str()), ("fast", fast.as_str())]),
     ];

@@ -119,7 +119,8 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
     let config = &session.effective();
     world.insert_resource(Bindings::of(config));
     world.insert_resource(ManualControl::from(config));
-    world.insert_resource::<Skills>(skills(config));
+    // The autopilot's is that of whoever boarded.
+    world.get_resource_or_init::<Skills>().enemy = skills(config).enemy;
     world.insert_resource(ChaseRules(session.scene.rules(config)));
     // The clock counts steps: a change of the step takes effect with the next chase, so that T never jumps.
     let fleet = world.get_resource::<Fleet>().cloned().unwrap_or_default();

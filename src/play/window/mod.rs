@@ -62,8 +62,8 @@ pub struct Options {
     pub at_once: bool,
     /// Where the best flights are kept; None: in the user's data folder.
     pub data: Option<std::path::PathBuf>,
-    /// Is said on the screen as it begins.
-    pub said: Option<String>,
+    /// A link was opened that shows no flight: this is said as the game begins.
+    pub refused_link: bool,
     /// Says in the terminal how much is drawn, and why.
     pub verbose: bool,
     /// Writes the time of each frame here, counted from then.
@@ -88,8 +88,10 @@ pub fn run(session: Session, options: &Options) -> AppExit {
 pub async fn prepared(session: Session, options: &Options) -> App {
     let (choices, said) = Choices::load();
     let mut app = app_in_steps(session, options, OutputSurface::Window, choices).await;
-    if let Some(text) = said.or_else(|| options.said.clone()) {
-        app.insert_resource(Notice { text, until: 15.0, share: None });
+    let refused = options.refused_link.then(|| app.world().resource::<Session>().language().say("share-refused"));
+    if let Some(text) = said.or(refused) {
+        // A page shows the title after ten seconds.
+        app.insert_resource(Notice { text, until: 25.0, share: None });
     }
     app
 }

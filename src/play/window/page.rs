@@ -7,6 +7,7 @@ use crate::play::input::button::Device;
 use crate::play::menus::screens::Screen;
 use crate::play::missions::LastFlight;
 use crate::play::picture::stage_loading::CurrentStage;
+use crate::sim::replay::Playback;
 
 /// After so many frames one is on the page.
 const FRAMES_BEFORE_BEGUN: u32 = 2;
@@ -46,7 +47,7 @@ fn begun(mut frames: Local<u32>) {
     }
 }
 
-fn shown(screen: Res<State<Screen>>, last: Option<Res<LastFlight>>) {
+fn shown(screen: Res<State<Screen>>, last: Option<Res<LastFlight>>, playback: Option<Res<Playback>>) {
     let name = match screen.get() {
         Screen::Warning => "warning",
         Screen::Title => "title",
@@ -55,5 +56,6 @@ fn shown(screen: Res<State<Screen>>, last: Option<Res<LastFlight>>) {
         Screen::Result => "result",
         Screen::Photo => "photo",
     };
-    page::screen(name, *screen.get() == Screen::Result && last.is_some_and(|last| last.won.is_some()));
+    let won = *screen.get() == Screen::Result && last.is_some_and(|last| last.won.is_some());
+    page::screen(name, won, playback.is_some());
 }

@@ -18,9 +18,8 @@ pub const MOST_LINK: usize = 1900;
 /// The most bytes of a replay's text in a link.
 const MOST_TEXT: u64 = 64 << 10;
 /// The lines of that text, in their order.
-const KEYS: [&str; 13] = [
-    "replay", "version", "scene", "fingerprint", "difficulty", "pilot", "seed", "ticks", "outcome", "hash", "settings", "log", "check",
-];
+const KEYS: [&str; 13] =
+    ["replay", "version", "scene", "fingerprint", "difficulty", "pilot", "seed", "ticks", "outcome", "hash", "settings", "log", "check"];
 
 impl Replay {
     /// The link, or how many characters it would have where that is too many.
