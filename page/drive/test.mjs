@@ -150,10 +150,12 @@ try {
     const push = async () => {
       for (const pressed of [true, false]) {
         await page.evaluate((pressed) => Object.assign(pad.buttons[0], { pressed, value: Number(pressed) }), pressed);
-        await page.waitForTimeout(FRAME);
+        // A pad has no events: what is shorter than a frame is not seen.
+        await page.waitForTimeout(2 * FRAME);
       }
     };
     await screen(page, "warning");
+    await page.waitForFunction(() => document.body.dataset.drawn);
     await push();
     await screen(page, "title");
     await push();
