@@ -38,13 +38,15 @@ pub fn choose_pilot(player_commands: Res<PlayerCommands>, ships: Query<(Entity, 
 }
 
 type ByHand = (With<Player>, With<Manual>);
+/// A ship: how it moves, what it can do, what is asked of it, its way to the mark, and its trigger.
+type Flown<'a> = (Entity, &'a ShipMotion, &'a mut Engine, &'a mut Controls, &'a mut Way, Option<&'a mut Trigger>);
 
 /// The player's commands become the ship's controls.
 fn apply_commands(
     (player_commands, control, clock): (Res<PlayerCommands>, Res<ManualControl>, Res<Clock>),
     targets: Targets,
     mut avoiding: ResMut<Avoiding>,
-    mut ships: Query<(Entity, &ShipMotion, &mut Engine, &mut Controls, &mut Way, Option<&mut Trigger>), ByHand>,
+    mut ships: Query<Flown, ByHand>,
 ) {
     avoiding.0 = false;
     for (ship, motion, mut engine, mut controls, mut way, trigger) in &mut ships {
