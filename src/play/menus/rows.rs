@@ -170,11 +170,14 @@ mod tests {
 
     /// What a menu of two entries, a button and a slider, notes of these events of the mouse.
     fn touched(events: Vec<Event>) -> Vec<Touch> {
+        touched_in(Entry::new("quit", "Quit".into(), Does::Ask(MenuAction::Quit)), events)
+    }
+
+    /// The same with another first entry, which has the focus.
+    fn touched_in(first: Entry, events: Vec<Event>) -> Vec<Touch> {
         let setting = crate::scene::config::setting("sound.music").expect("a setting");
-        let entries = vec![
-            Entry::new("quit", "Quit".into(), Does::Ask(MenuAction::Quit)),
-            Entry { share: Some(0.5), ..Entry::new("music", "Music".into(), Does::Choose(setting)).valued("50 %".into()) },
-        ];
+        let entries =
+            vec![first, Entry { share: Some(0.5), ..Entry::new("music", "Music".into(), Does::Choose(setting)).valued("50 %".into()) }];
         let mut menu = Menu { entries, ..Menu::default() };
         let context = Context::default();
         let screen = Rect::from_min_size(Pos2::ZERO, vec2(400.0, 300.0));
@@ -210,6 +213,14 @@ mod tests {
     #[test]
     fn the_pointer_takes_the_focus_with_it() {
         assert_eq!(touched(vec![Event::PointerMoved(pos2(60.0, 38.0)), Event::PointerMoved(pos2(62.0, 38.0))])[0], Touch::Focus(1, 0));
+    }
+
+    #[test]
+    fn arrows_turn_where_they_are_clicked() {
+        for (right, done) in [(PAD + 4.0, Touch::Step(Way::Right)), (PAD + 45.0, Touch::Step(Way::Left)), (340.0, Touch::Confirm)] {
+            let free = Entry::new("free", "Free flight".into(), Does::Fly(10)).valued("chase".into());
+            assert_eq!(touched_in(free, click(pos2(400.0 - right, 12.0))), [Touch::Focus(0, 0), done], "{right}");
+        }
     }
 
     /// The bar begins 184 points from the right edge and is 110 long.
