@@ -116,11 +116,12 @@ mod tests {
     }
 
     /// Watched in the game, with the pace turned up, a flight by hand and autopilot comes to the same end as it had; after it the player's own
-    /// pace is there again.
+    /// settings are there again, and the next flight is recorded.
     #[test]
     fn a_flight_that_is_watched_is_the_one_that_was_flown() {
         let (mut app, flight) = flown(60 * 50, 60, true);
-        app.world_mut().resource_mut::<Session>().config.clock.pace = 0.9;
+        let own = &mut app.world_mut().resource_mut::<Session>().config;
+        (own.clock.pace, own.assist.damping_time) = (0.9, 2.0);
         let (catalogue, _) = Catalogue::read(app.world().resource::<Session>().scene.clone());
         let free = catalogue.missions.len();
         app.insert_resource(catalogue);
@@ -139,7 +140,10 @@ mod tests {
         assert_eq!((app.world().resource::<Clock>().tick, state_hash(app.world()).to_string()), (flight.ticks, flight.hash));
         app.world_mut().remove_resource::<Watched>();
         begin(app.world_mut(), Screen::Playing);
-        assert_eq!(app.world().resource::<Session>().config.clock.pace, 0.9);
+        app.update();
+        let own = &app.world().resource::<Session>().config;
+        assert_eq!((own.clock.pace, own.assist.damping_time), (0.9, 2.0));
+        assert!(app.world().contains_resource::<ReplayLog>(), "the next flight is recorded");
     }
 
     /// So many frames of a sixtieth of a second, by a hand that rests so many of them between two flicks, and for the last quarter by the

@@ -112,8 +112,8 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
         return;
     }
     let session = session.clone();
-    // The last flight's log is that of the settings it began with.
-    if before.as_ref().is_some_and(|before| flies_otherwise(before, &session.config)) {
+    // A flight's log is that of the settings it began with.
+    if world.get_resource::<ReplayLog>().is_some_and(|log| flies_otherwise(&log.0.config(&session.config), &session.config)) {
         world.remove_resource::<ReplayLog>();
     }
     let config = &session.effective();
