@@ -105,10 +105,11 @@ async fn mapped(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError>
         let _ = send.send(result);
     });
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
-    // After that it has come, but in a page, which does not wait in `poll`.
+    // A page does not wait in `poll`. Elsewhere another thread's `poll` may have taken the answer and be about to hand it over.
     let come = loop {
         match receive.try_recv() {
             Err(TryRecvError::Empty) if cfg!(target_family = "wasm") => breath().await,
+            Err(TryRecvError::Empty) => std::thread::yield_now(),
             other => break other.map_err(|error| PictureError::Map(error.to_string()))?,
         }
     };
