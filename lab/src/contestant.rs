@@ -5,12 +5,13 @@ use std::sync::{Mutex, PoisonError};
 use crate::compare::command::MARKS;
 use crate::compare::{ContestantFrame, Shown};
 use lensrunner::judge::case::Case;
+use lensrunner::render::gpu::device::wait;
 use lensrunner::render::gpu::readback::{PictureError, ReadbackPicture};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::shot::surroundings;
 use lensrunner::render::stage::{Stage, settings};
 use lensrunner::render::{DeviceError, Gpu, Renderer};
-use lensrunner::scene::Model;
+use lensrunner::scene::{GameConfig, Model};
 
 /// The game's renderer, kept from case to case: its device and its passes are made once.
 #[derive(Default)]
@@ -35,11 +36,16 @@ impl GameContestant {
                 drawn(renderer, case, &mut stage, false, self.with(case, true))?,
                 drawn(renderer, case, &mut stage, false, self.with(case, false))?,
             ];
+            let surfaces = match case.scene.disk(&case.config) {
+                Some(_) => without_disk(renderer, case, self.with(case, false))?.linear,
+                None => bare.linear.clone(),
+            };
             let [first, second] = MARKS.map(|mark| marked(renderer, case, mark, self.with(case, false)));
             let (first, second) = (first?, second?);
-            let rgb = |light: &[[f32; 4]]| light.iter().map(|p| [p[0], p[1], p[2]]).collect();
+            let rgb = |light: &[[f32; 4]]| -> Vec<[f32; 3]> { light.iter().map(|p| [p[0], p[1], p[2]]).collect() };
             let shown = (0..first.layers.len()).map(|i| shown(&first, &second, i));
-            Ok(ContestantFrame { size: sky.size, light: rgb(&sky.linear), bare: rgb(&bare.linear), shown: shown.collect() })
+            let [light, bare, surfaces] = [&sky.linear, &bare.linear, &surfaces].map(|light| rgb(light));
+            Ok(ContestantFrame { size: sky.size, light, bare, surfaces, shown: shown.collect() })
         })
     }
 
@@ -89,11 +95,27 @@ fn marked(renderer: &mut Renderer, case: &Case, mark: fn(&Model) -> Model, setti
     drawn(renderer, case, &mut stage, true, settings)
 }
 
+/// The picture without the disk. What shines on the bodies stays.
+fn without_disk(renderer: &mut Renderer, case: &Case, settings: Settings) -> Result<ReadbackPicture, DrawError> {
+    let config = prepared(renderer, case);
+    let table = renderer.table().clone();
+    let (mut stage, mut upload) = wait(Stage::prepare(&table, &case.scene, case.assembly.clone(), &config, None));
+    upload.disk = None;
+    renderer.upload(&upload);
+    drawn(renderer, case, &mut stage, false, settings)
+}
+
 fn stage_of(renderer: &mut Renderer, case: &Case, mark: Option<fn(&Model) -> Model>) -> Stage {
+    let config = prepared(renderer, case);
+    Stage::of(renderer, &case.scene, case.assembly.clone(), &config, mark)
+}
+
+/// Gives the renderer the size of a case; the configuration that is drawn by.
+fn prepared(renderer: &mut Renderer, case: &Case) -> GameConfig {
     renderer.resize(case.camera.size);
     let mut config = case.config.clone();
     config.aurora.enabled = false;
-    Stage::of(renderer, &case.scene, case.assembly.clone(), &config, mark)
+    config
 }
 
 fn drawn(renderer: &mut Renderer, case: &Case, stage: &mut Stage, layers: bool, settings: Settings) -> Result<ReadbackPicture, DrawError> {

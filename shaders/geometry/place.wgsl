@@ -13,7 +13,7 @@
 #import lensrunner::instances::instance::INSTANCE_TEXELS
 #import lensrunner::instances::local_motion::turned_by
 #import lensrunner::instances::view::{
-    angle_of_sine, anywhere, Extent, extent_of, farthest_in_patch, MARGIN, may_be_seen, SCREEN_MARGIN, seen_cap, turn_of,
+    angle_of_sine, anywhere, Extent, extent_of, farthest_in_patch, is_drawn_out, MARGIN, may_be_seen, SCREEN_MARGIN, seen_cap, turn_of,
 }
 #import lensrunner::lensing::closed_form::{angle, HALF_TURN, sine_cosine}
 #import lensrunner::lensing::lookup::{OLD, YOUNG}
@@ -209,6 +209,10 @@ const BESIDE: f32 = 4.0;
 const ROUNDING: f32 = 4e-7;
 const NARROW_RING_BELOW: f32 = 10.0;
 const THIN_STRICTNESS: f32 = 4.0;
+const THINNER_RING: f32 = 8.0;
+const THIN_RING_BELOW: f32 = 48.0;
+const LEAST_THIN_RING: f32 = 4.0;
+const MOST_THIN_RING: f32 = 16.0;
 const NARROW_IMAGE_BELOW: f32 = 16.0;
 const MOST_NARROW_STRICTNESS: f32 = 8.0;
 
@@ -324,12 +328,14 @@ fn image_of(thread: u32) -> Image {
     instance.across_b = beside.y + 0.61 * BESIDE * instance.rounding;
     let whole = abs(body.position.z) > MARGIN * reach;
     instance.crossings = select(-1.0, f32(plane_crossings(frame.outward.z, body.position.z, order)), whole);
-    let is_thin = width < held_frame.thin_below && held_frame.has_thin == 1u;
+    let is_ring = is_drawn_out(extent);
+    let is_thin = width < held_frame.thin_below * select(1.0, THINNER_RING, is_ring) && held_frame.has_thin == 1u;
+    let thin_strictness = select(THIN_STRICTNESS, clamp(THIN_RING_BELOW / width, LEAST_THIN_RING, MOST_THIN_RING), is_ring);
     instance.flags = INSTANCE_STATIC | held_frame.flags | select(0u, INSTANCE_TWO_SIDED, distance < reach)
         | select(0u, INSTANCE_MINUS, minus)
         | select(select(0u, INSTANCE_NARROW_RING, width < NARROW_RING_BELOW && order > 1u), INSTANCE_THIN, is_thin);
     instance.strictness = held_frame.strictness
-        * select(clamp(NARROW_IMAGE_BELOW / width, 1.0, MOST_NARROW_STRICTNESS), THIN_STRICTNESS, is_thin);
+        * select(clamp(NARROW_IMAGE_BELOW / width, 1.0, MOST_NARROW_STRICTNESS), thin_strictness, is_thin);
     let has_numbers = finite_vector(offset) && finite_vector(vec3<f32>(beside, instance.strictness))
         && finite_vector(instance.bound_high.middle + instance.bound_low.middle + instance.bound_look.middle);
     if !has_numbers {

@@ -18,6 +18,17 @@ struct Extent {
     width: f32,
     /// How long it is across that, round the axis, in pixels.
     length: f32,
+    /// Half its extent in azimuth round the axis, in radians.
+    round: f32,
+}
+
+/// As in src/render/instances/view.rs.
+const DRAWN_OUT: f32 = 4.0;
+const DRAWN_OUT_ROUND: f32 = 0.25;
+
+/// Whether light draws it out along the ring, so that it shows sections of the body at many azimuths.
+fn is_drawn_out(extent: Extent) -> bool {
+    return extent.round > DRAWN_OUT_ROUND && extent.length > DRAWN_OUT * extent.width;
 }
 
 /// Factor by which an extent is enlarged.
@@ -51,7 +62,7 @@ fn angle_of_sine(part: f32, whole: f32) -> f32 {
 
 /// The extent of what may be seen anywhere.
 fn anywhere() -> Extent {
-    return Extent(frame.outward, HALF_TURN, HALF_TURN / frame.pixel, 2.0 * HALF_TURN / frame.pixel);
+    return Extent(frame.outward, HALF_TURN, HALF_TURN / frame.pixel, 2.0 * HALF_TURN / frame.pixel, HALF_TURN);
 }
 
 /// The sense in which light of an order turns round the axis.
@@ -78,7 +89,8 @@ fn extent_of(low: f32, high: f32, centre: f32, path: f32, beside: vec2<f32>, r: 
     let width = min(high - low, 2.0 * reach / max(path, 1e-9)) * enlarged;
     let straddles = low < 0.5 * HALF_TURN && high > 0.5 * HALF_TURN;
     let steepest = select(max(sine_cosine(low).x, sine_cosine(high).x), 1.0, straddles);
-    return Extent(n * at.y + side * at.x, max(high - centre, centre - low) + round * steepest, width, 2.0 * round * steepest * enlarged);
+    let radius = max(high - centre, centre - low) + round * steepest;
+    return Extent(n * at.y + side * at.x, radius, width, 2.0 * round * steepest * enlarged, round);
 }
 
 /// The largest number of pixels per radian of ψ on the screen, by aberration and by the projection onto the plane screen. For directions

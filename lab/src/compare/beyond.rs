@@ -52,6 +52,7 @@ impl Verdict {
             faults.push(Fault::new(Kind::Thin, (judge - shown).abs(), allowed, text));
         }
         faults.extend(self.areas.iter().filter(|area| area.order <= limits.orders).filter_map(|area| area.fault(limits)));
+        faults.extend(self.lights.iter().filter(|light| light.image.1 <= limits.orders).filter_map(|light| light.fault(limits)));
         if let Some(allowed) = limits.flip
             && self.flip > allowed
         {

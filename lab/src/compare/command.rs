@@ -7,7 +7,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::ContestantFrame;
 use super::collect::{COLUMNS, add, moments};
-use super::measure::metrics::{Limits, compare};
+use super::deadline::Deadline;
+use super::measure::light::lights;
+use super::measure::metrics::{Limits, Verdict, compare};
 use super::measure::narrow;
 use super::measure::probe::probe;
 use super::report::{side_by_side, table};
@@ -137,6 +139,8 @@ pub fn run_case(
     let difference = difference(&judge, &frame);
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
     let verdict = compare(&judge, &frame, &probe, &names, &difference);
+    let lights = lights(&judge, &frame, &probe, &names, &Limits::default(), request.samples, &Deadline::never());
+    let verdict = Verdict { lights, ..verdict };
     // Colours of surfaces follow from where their points are; what else differs there are steps along edges, of a ray a pixel in the game.
     let limits = Limits { orders: case.config.render.orders, ..Limits::default() };
     let nothing_solid = !verdict.is_judged(&limits);

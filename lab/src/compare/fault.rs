@@ -18,6 +18,8 @@ pub struct Limits {
     /// Of the difference in area of all thin images, in standard deviations of a count: of each pixel that an image touches, samples and
     /// drawn triangles may make all or nothing, of a variance of 1/4 at most.
     pub thin: f64,
+    /// Of the light of an image, as a part of it.
+    pub light: f64,
     /// Of the mean ꟻLIP of the picture; None where the judge has too few rays a pixel to know its colours, or where surfaces are.
     pub flip: Option<f64>,
     /// Image orders that are drawn at all; higher ones are listed and not judged.
@@ -26,7 +28,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Limits {
-        Limits { most: 0.5, max: 1.5, coverage: 0.002, outline: 0.0, thin: 3.0, flip: None, orders: 3 }
+        Limits { most: 0.5, max: 1.5, coverage: 0.002, outline: 0.0, thin: 3.0, light: 0.05, flip: None, orders: 3 }
     }
 }
 
@@ -71,6 +73,8 @@ pub enum Kind {
     NoPicture,
     /// An image is larger or smaller than the judge sees it.
     Area,
+    /// An image is brighter or darker than the judge sees it.
+    Light,
     /// There is light where the judge sees the shadow.
     Lit,
     /// There is nothing where the judge sees a thing all around.
@@ -91,9 +95,10 @@ pub enum Kind {
 
 impl Kind {
     /// All of them, the worst first.
-    pub const ALL: [Kind; 10] = [
+    pub const ALL: [Kind; 11] = [
         Kind::NoPicture,
         Kind::Area,
+        Kind::Light,
         Kind::Lit,
         Kind::Hole,
         Kind::Order,
@@ -109,6 +114,7 @@ impl Kind {
         match self {
             Kind::NoPicture => "no-picture",
             Kind::Area => "area",
+            Kind::Light => "light",
             Kind::Lit => "lit",
             Kind::Hole => "hole",
             Kind::Order => "order",

@@ -9,6 +9,7 @@ use super::command::DrawCase;
 use super::deadline::{Deadline, GaveUp, trace_within};
 use super::fault::{Fault, Kind, Limits};
 use super::measure::displacement::Effort;
+use super::measure::light::{LEAST_ROUNDS, lights};
 use super::measure::metrics::{Verdict, compare_with};
 use super::measure::narrow::{grossly_wrong, see_again_but};
 use super::measure::probe::probe;
@@ -93,6 +94,8 @@ pub fn judge(case: &Case, terms: &Terms, contestant: &DrawCase) -> Result<Judged
 
 /// The part of the judge's time that displacements may take besides.
 const MEASURING: f64 = 0.25;
+/// The same for light.
+const LIGHT: f64 = 0.25;
 
 /// Sets the picture beside the judge's, which is looked at again where images are narrow.
 fn measure(case: &Case, frame: &ContestantFrame, judge: &mut TracedPicture, terms: &Terms, deadline: &Deadline) -> Result<Verdict, GaveUp> {
@@ -109,7 +112,12 @@ fn measure(case: &Case, frame: &ContestantFrame, judge: &mut TracedPicture, term
     let effort = Effort { pixels: terms.pixels, doubtful: terms.doubtful, deadline: Deadline::after(MEASURING * terms.seconds) };
     // Colours are not judged with one ray a pixel.
     let no_difference = vec![0.0; judge.light.len()];
-    Ok(compare_with(judge, frame, &probe, &names, &no_difference, &effort))
+    let verdict = compare_with(judge, frame, &probe, &names, &no_difference, &effort);
+    // What is grossly wrong needs no more rays.
+    let deadline = Deadline::after(LIGHT * terms.seconds);
+    let limits = Limits::small(case.config.render.orders);
+    let lights = if gross.is_empty() { lights(judge, frame, &probe, &names, &limits, LEAST_ROUNDS, &deadline) } else { Vec::new() };
+    Ok(Verdict { lights, ..verdict })
 }
 
 /// The renderer's picture, or why there is none; a panic is a reason.

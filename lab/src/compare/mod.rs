@@ -54,6 +54,8 @@ pub struct ContestantFrame {
     pub light: Vec<[f32; 3]>,
     /// Linear light of the things alone.
     pub bare: Vec<[f32; 3]>,
+    /// Linear light of surfaces alone: without the sky and without the disk, which adds light and takes some.
+    pub surfaces: Vec<[f32; 3]>,
     /// What each pixel shows.
     pub shown: Vec<Shown>,
 }
@@ -68,6 +70,7 @@ impl ContestantFrame {
             coverage: if layer.object > 0 { 1.0 } else { 0.0 },
         });
         let bare = picture.light.iter().zip(&picture.open).map(|(rgb, open)| if *open < 1.0 { *rgb } else { [0.0; 3] });
-        ContestantFrame { size: picture.size, light: picture.light.clone(), bare: bare.collect(), shown: shown.collect() }
+        let surfaces = picture.layers.iter().map(|layer| layer.light).collect();
+        ContestantFrame { size: picture.size, light: picture.light.clone(), bare: bare.collect(), surfaces, shown: shown.collect() }
     }
 }

@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use glam::DVec3;
+
 use super::ContestantFrame;
 use super::measure::metrics::{Limits, Verdict};
 use lensrunner::judge::picture::TracedPicture;
@@ -35,6 +37,18 @@ pub fn table(verdict: &Verdict, limits: &Limits, faults: &[String]) -> String {
             group.thin[0],
             group.thin[1],
             group.flip
+        );
+    }
+    for light in verdict.lights.iter().filter(|light| light.image.1 <= limits.orders) {
+        let [shown, judge] = [light.shown, light.judge].map(|light| light.element_sum() / 3.0);
+        let part = |light: DVec3| 100.0 * light.element_sum() / 3.0 / judge.max(1e-12);
+        let (noise, outline) = (part(light.noise), part(light.outline));
+        let (who, ratio, of_all) =
+            (format!("{} order {}", light.name, light.image.1), shown / judge, judge / light.picture.element_sum() * 3.0);
+        let _ = writeln!(
+            text,
+            "light of {who}: {shown:.4}, by the judge {judge:.4} ± {noise:.1} % (outlines by one ray: ± {outline:.1} %): ratio {ratio:.3}; {:.1} % of the picture's",
+            100.0 * of_all
         );
     }
     let colour = limits.flip.map_or("no limit with surfaces or below 16 rays a pixel".into(), |flip| format!("at most {flip:.4}"));

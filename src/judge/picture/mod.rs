@@ -15,9 +15,7 @@ pub mod sky;
 pub mod texture;
 pub mod world;
 
-use std::collections::HashMap;
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
@@ -29,9 +27,8 @@ pub use world::{Thing, World};
 
 use super::bvh::order::squares;
 use super::trace::{Hit, PixelCamera};
-use shade::{LightShift, Surface, detail, shaded, texel};
+use shade::{LightShift, Surface, Textures, detail};
 use sky::{SPOT_SIGMA, SkyBackground, Spot};
-use texture::Pyramid;
 
 /// The parts of a scene that are not bodies.
 pub struct Environment<'a> {
@@ -78,6 +75,8 @@ pub struct Layer {
     pub delay: f64,
     /// ν_observed/ν_emitted.
     pub g: f64,
+    /// The surface's own light, linear RGB: without what the disk adds and takes on the way.
+    pub light: [f32; 3],
 }
 
 /// A picture in linear light, with what its pixels show.
@@ -141,7 +140,7 @@ pub fn picture(
 ) -> TracedPicture {
     let [width, height] = camera.size;
     let given_up = world.given_up();
-    let painter = Painter { world, environment, camera, sampling, pyramids: pyramids(world) };
+    let painter = Painter { world, environment, camera, sampling, textures: Textures::of(world) };
     let bands: Vec<Band> = (0..height.div_ceil(BAND))
         .into_par_iter()
         .map(|band| {
@@ -197,21 +196,12 @@ fn draw_spot(picture: &mut TracedPicture, spot: &Spot) {
     }
 }
 
-/// One pyramid for each distinct image, by its address.
-fn pyramids(world: &World) -> HashMap<usize, Pyramid> {
-    let mut found: HashMap<usize, Pyramid> = HashMap::new();
-    for image in world.models.iter().flat_map(|model| &model.materials).filter_map(|material| material.texture.as_ref()) {
-        found.entry(Arc::as_ptr(image) as usize).or_insert_with(|| Pyramid::of(image));
-    }
-    found
-}
-
 struct Painter<'a> {
     world: &'a World<'a>,
     environment: &'a Environment<'a>,
     camera: &'a PixelCamera,
     sampling: &'a Sampling,
-    pyramids: HashMap<usize, Pyramid>,
+    textures: Textures,
 }
 
 struct Band {
@@ -266,13 +256,11 @@ impl Painter<'_> {
         for y in 0..(end - first) as usize {
             for x in 0..width as usize {
                 // With an even number of samples none lies at the centre: one more ray is traced for the layers.
-                let centre = if n % 2 == 1 {
-                    *grid.at(y * n as usize + n as usize / 2, x * n as usize + n as usize / 2)
-                } else {
-                    self.sample(x as f64 + 0.5, f64::from(first) + y as f64 + 0.5)
-                };
+                let [row, column] = [y, x].map(|k| k * n as usize + n as usize / 2);
+                let centre =
+                    if n % 2 == 1 { *grid.at(row, column) } else { self.sample(x as f64 + 0.5, f64::from(first) + y as f64 + 0.5) };
                 self.add_pixel(&mut band, &grid, [x, y]);
-                band.layers.push(self.layer(&centre));
+                band.layers.push(self.layer(&grid, &centre, row, column));
             }
         }
         band
@@ -289,7 +277,7 @@ impl Painter<'_> {
         for k in 0..n * n {
             let (row, column) = (y * n + k / n, x * n + k % n);
             let sample = grid.at(row, column);
-            light += (sample.foreground + self.colour(grid, row, column) * sample.through) * weight;
+            light += (sample.foreground + self.colour(grid, sample, row, column) * sample.through) * weight;
             dark &= matches!(sample.end, Ending::Dark) && sample.through == 1.0;
             match &sample.end {
                 Ending::Surface { hit, .. } => {
@@ -359,9 +347,9 @@ impl Painter<'_> {
         PixelSample { end, foreground, through }
     }
 
-    /// The light of what a ray ends at.
-    fn colour(&self, grid: &Grid, row: usize, column: usize) -> Vec3 {
-        match grid.at(row, column).end {
+    /// The light of what a ray ends at that goes through this place of the grid.
+    fn colour(&self, grid: &Grid, sample: &PixelSample, row: usize, column: usize) -> Vec3 {
+        match sample.end {
             Ending::Dark => Vec3::ZERO,
             Ending::Sky { direction, g } => {
                 let size = grid.change(row, column, |other| match other.end {
@@ -371,9 +359,6 @@ impl Painter<'_> {
                 self.environment.background.light(direction, size[0].max(size[1]), g, self.environment.shift)
             }
             Ending::Surface { hit, surface } => {
-                let thing = &self.world.things[hit.object];
-                let material = &self.world.models[thing.model].materials[surface.material as usize];
-                let pyramid = material.texture.as_ref().and_then(|image| self.pyramids.get(&(Arc::as_ptr(image) as usize)));
                 let [across, down] = grid.change(row, column, |other| match other.end {
                     Ending::Surface { hit: other, surface: there } if other.object == hit.object && other.order == hit.order => {
                         Some(f64::from(there.uv.distance(surface.uv)))
@@ -381,12 +366,13 @@ impl Painter<'_> {
                     _ => None,
                 });
                 let detail = detail(Vec2::X * across as f32, Vec2::X * down as f32);
-                shaded(&surface, thing, material, texel(pyramid, surface.uv, detail), self.environment.shift)
+                self.textures.light(self.world, hit.object, &surface, detail, self.environment.shift)
             }
         }
     }
 
-    fn layer(&self, sample: &PixelSample) -> Layer {
+    /// What a ray shows that goes through this place of the grid.
+    fn layer(&self, grid: &Grid, sample: &PixelSample, row: usize, column: usize) -> Layer {
         let Ending::Surface { hit, surface } = &sample.end else { return Layer::default() };
         Layer {
             object: self.world.things[hit.object].id,
@@ -397,6 +383,7 @@ impl Painter<'_> {
             swept: hit.swept,
             delay: hit.delay,
             g: surface.g,
+            light: self.colour(grid, sample, row, column).to_array(),
         }
     }
 }

@@ -1,5 +1,8 @@
 //! What a surface sends to the camera: the game's rules of colour, each a twin of the function of the same name in `shaders/`.
 
+use std::collections::HashMap;
+use std::sync::Arc;
+
 use glam::{DVec3, Vec2, Vec3};
 
 use super::texture::Pyramid;
@@ -78,6 +81,31 @@ fn static_body_momentum(position: DVec3) -> DVec3 {
     // Rounding must not take it to r = 1 or below, where nothing is static.
     let r = position.length().max(1.0 + 1e-12);
     position * (river_speed(r) / (r * (1.0 - 1.0 / r).sqrt()))
+}
+
+/// The images of a world's materials, ready to be sampled.
+pub struct Textures(
+    /// One pyramid for each distinct image, by its address.
+    HashMap<usize, Pyramid>,
+);
+
+impl Textures {
+    /// Those of the models of a world.
+    pub fn of(world: &World) -> Textures {
+        let mut found: HashMap<usize, Pyramid> = HashMap::new();
+        for image in world.models.iter().flat_map(|model| &model.materials).filter_map(|material| material.texture.as_ref()) {
+            found.entry(Arc::as_ptr(image) as usize).or_insert_with(|| Pyramid::of(image));
+        }
+        Textures(found)
+    }
+
+    /// The light of a surface of a thing of this world, linear RGB; `detail` is the level at which its texture is read.
+    pub fn light(&self, world: &World, thing: usize, surface: &Surface, detail: f32, shift: LightShift) -> Vec3 {
+        let thing = &world.things[thing];
+        let material = &world.models[thing.model].materials[surface.material as usize];
+        let pyramid = material.texture.as_ref().and_then(|image| self.0.get(&(Arc::as_ptr(image) as usize)));
+        shaded(surface, thing, material, texel(pyramid, surface.uv, detail), shift)
+    }
 }
 
 /// The light of a surface, linear RGB; `texel` is its texture there.

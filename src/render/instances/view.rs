@@ -37,13 +37,24 @@ pub(in crate::render) struct Extent {
     pub(in crate::render) width: f64,
     /// How long it is across that, round the axis, in pixels.
     pub(in crate::render) length: f64,
+    /// Half its extent in azimuth round the axis, in radians.
+    pub(in crate::render) round: f64,
 }
 
 /// Factor by which an extent is enlarged. It is that of a ball at one time, from five of its points; the points between them and the motion
 /// need more.
 pub(in crate::render) const MARGIN: f64 = 3.0;
 
+/// An image is drawn out if it is so many times as long as wide, and its half spans more than this azimuth, in radians.
+const DRAWN_OUT: f64 = 4.0;
+const DRAWN_OUT_ROUND: f64 = 0.25;
+
 impl Extent {
+    /// Whether light draws it out along the ring, so that it shows sections of the body at many azimuths.
+    pub(in crate::render) fn is_drawn_out(&self) -> bool {
+        self.round > DRAWN_OUT_ROUND && self.length > DRAWN_OUT * self.width
+    }
+
     pub(super) fn may_be_seen(&self, camera: &Observer, aspect: f64) -> bool {
         may_be_seen(camera, self.look, MARGIN * self.radius, 0.01, aspect)
     }
@@ -85,7 +96,7 @@ impl InstanceView<'_> {
         let n = self.camera.position / l;
         let phi = position.dot(n).clamp(-r, r) / r;
         let phi = phi.acos();
-        let anywhere = Extent { look: n, radius: PI, width: PI / self.pixel, length: 2.0 * PI / self.pixel };
+        let anywhere = Extent { look: n, radius: PI, width: PI / self.pixel, length: 2.0 * PI / self.pixel, round: PI };
         if reach >= r || position.distance(self.camera.position) <= reach {
             return anywhere;
         }
@@ -115,6 +126,7 @@ impl InstanceView<'_> {
             radius: (high - centre).max(centre - low) + round * steepest,
             width: (high - low).min(2.0 * reach / path.max(1e-9)) * enlargement,
             length: 2.0 * round * steepest * enlargement,
+            round,
         }
     }
 

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::area::{Area, areas};
 use super::displacement::{Effort, Measured, Probe, displacements};
+use super::light::Light;
 pub use crate::compare::fault::Limits;
 use crate::compare::{ContestantFrame, Shown};
 use lensrunner::judge::picture::TracedPicture;
@@ -73,6 +74,8 @@ pub struct Verdict {
     pub displaced: Vec<f32>,
     /// How large each image of each object is, by number and order.
     pub areas: Vec<Area>,
+    /// How bright, where that is judged.
+    pub lights: Vec<Light>,
 }
 
 /// Compares. `probe` asks the judge between the pixels; `names` has the name of each object by number, from 1; `difference` is the ꟻLIP of
@@ -112,7 +115,18 @@ pub fn compare_with(
     let groups = found.tallies.into_iter().map(|((name, order), tally)| tally.group(name, order, width)).collect();
     let flip = difference.iter().map(|d| f64::from(*d)).sum::<f64>() / difference.len().max(1) as f64;
     let areas = areas(judge, frame, names, &|object, order| pair.is_thin((object, order)));
-    Verdict { groups, wrong_order: found.wrong_order, wrong_beyond_rim, holes: found.holes, lit, flip, displaced: found.displaced, areas }
+    let lights = Vec::new();
+    Verdict {
+        groups,
+        wrong_order: found.wrong_order,
+        wrong_beyond_rim,
+        holes: found.holes,
+        lit,
+        flip,
+        displaced: found.displaced,
+        areas,
+        lights,
+    }
 }
 
 /// One image of an object: the object's number, from 1, or 0 for none, and the image order.

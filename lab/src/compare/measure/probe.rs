@@ -1,8 +1,11 @@
 //! The judge, asked between the pixels of its picture.
 
-use glam::{DVec2, DVec3};
+use std::sync::OnceLock;
+
+use glam::{DVec2, DVec3, Vec3};
 
 use lensrunner::judge::case::Case;
+use lensrunner::judge::picture::shade::Textures;
 use lensrunner::judge::picture::{Layer, Seen, World, Worldline};
 use lensrunner::scene::disk::Gas;
 
@@ -35,11 +38,28 @@ pub trait Probe: Sync {
     fn is_dark(&self, x: f64, y: f64) -> bool;
 }
 
+/// What a surface sends to a place on the screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lit {
+    /// Number of the thing, from 1, and image order.
+    pub image: (u32, u32),
+    /// Linear RGB.
+    pub light: Vec3,
+}
+
+/// The judge, asked for light anywhere on the screen.
+pub trait LightProbe: Sync {
+    /// The surface that is seen at (x, y), in pixels from the upper left corner, without what a disk adds and takes on the way. Its texture
+    /// is read as finely as it is.
+    fn lit(&self, x: f64, y: f64) -> Option<Lit>;
+}
+
 /// The judge of a case.
-pub fn probe(case: &Case, tolerance: f64) -> impl Probe + '_ {
+pub fn probe(case: &Case, tolerance: f64) -> impl Probe + LightProbe + '_ {
     let ships: Vec<&dyn Worldline> = case.histories.iter().map(|history| history as &dyn Worldline).collect();
     let gas = case.scene.disk(&case.config).map(|disk| Gas::new(&disk, case.config.hole.mass_solar).extent());
-    Asked { case, world: case.world(&ships), gas, tolerance }
+    let world = case.world(&ships);
+    Asked { case, world, gas, tolerance, textures: OnceLock::new() }
 }
 
 /// A case's judge between the pixels.
@@ -49,6 +69,20 @@ struct Asked<'a> {
     /// From where to where the disk has gas, in r_s.
     gas: Option<[f64; 2]>,
     tolerance: f64,
+    /// Made when it is first asked for light.
+    textures: OnceLock<Textures>,
+}
+
+impl LightProbe for Asked<'_> {
+    fn lit(&self, x: f64, y: f64) -> Option<Lit> {
+        let camera = &self.case.camera;
+        let (look, blue) = camera.look(x, y);
+        let Seen::Hit(hit) = self.world.look(camera.observer.position, look, self.tolerance) else { return None };
+        let surface = self.world.surface(&hit, blue);
+        let textures = self.textures.get_or_init(|| Textures::of(&self.world));
+        let light = textures.light(&self.world, hit.object, &surface, f32::NEG_INFINITY, self.case.shift());
+        Some(Lit { image: (self.world.things[hit.object].id, hit.order), light })
+    }
 }
 
 impl Probe for Asked<'_> {

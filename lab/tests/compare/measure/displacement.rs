@@ -62,7 +62,7 @@ fn a_part_narrower_than_a_pixel_is_found_beside_the_centre() {
     shown[12].body = [502.8, 2.5, 0.0];
     // A point of nothing.
     shown[24].body = [4.5, 6.5, 1.0];
-    let frame = ContestantFrame { size, light: vec![[0.0; 3]; 25], bare: vec![[0.0; 3]; 25], shown };
+    let frame = ContestantFrame { size, light: vec![[0.0; 3]; 25], bare: vec![[0.0; 3]; 25], surfaces: vec![[0.0; 3]; 25], shown };
     let found = displacements(&judge, &frame, &Rod, &Effort::default());
     let Some(Measured::Pixels(rod)) = found[12] else { panic!("{:?}", found[12]) };
     assert!((rod - 0.3).abs() < 1e-3, "{rod}");
