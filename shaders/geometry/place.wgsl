@@ -209,7 +209,6 @@ const BESIDE: f32 = 4.0;
 const ROUNDING: f32 = 4e-7;
 const NARROW_RING_BELOW: f32 = 10.0;
 const THIN_STRICTNESS: f32 = 4.0;
-const THINNER_RING: f32 = 8.0;
 const THIN_RING_BELOW: f32 = 48.0;
 const LEAST_THIN_RING: f32 = 4.0;
 const MOST_THIN_RING: f32 = 16.0;
@@ -329,7 +328,9 @@ fn image_of(thread: u32) -> Image {
     let whole = abs(body.position.z) > MARGIN * reach;
     instance.crossings = select(-1.0, f32(plane_crossings(frame.outward.z, body.position.z, order)), whole);
     let is_ring = is_drawn_out(extent);
-    let is_thin = width < held_frame.thin_below * select(1.0, THINNER_RING, is_ring) && held_frame.has_thin == 1u;
+    // Of a ring the body's sections across the axis are seen.
+    let section = width / select(1.0, body.flatness, is_ring);
+    let is_thin = section < held_frame.thin_below && held_frame.has_thin == 1u;
     let thin_strictness = select(THIN_STRICTNESS, clamp(THIN_RING_BELOW / width, LEAST_THIN_RING, MOST_THIN_RING), is_ring);
     instance.flags = INSTANCE_STATIC | held_frame.flags | select(0u, INSTANCE_TWO_SIDED, distance < reach)
         | select(0u, INSTANCE_MINUS, minus)

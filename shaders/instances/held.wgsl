@@ -24,7 +24,8 @@ struct HeldBody {
     model_count: u32,
     /// As in `Instance`.
     object: u32,
-    unused: u32,
+    /// Diameter of its ball over the least side of its box.
+    flatness: f32,
 }
 
 /// One model of a body, or one that stands in for it: where it begins and how much there is, as in `Instance`.

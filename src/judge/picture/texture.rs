@@ -19,6 +19,15 @@ pub struct Level {
 }
 
 impl Level {
+    /// Each pixel the mean of four.
+    fn halved(&self) -> Level {
+        let (width, height) = (self.width / 2, self.height / 2);
+        let at = |x: usize, y: usize| self.pixels[y * self.width + x];
+        let mean = |x: usize, y: usize| 0.25 * (at(x, y) + at(x + 1, y) + at(x, y + 1) + at(x + 1, y + 1));
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (2 * x, 2 * y))).map(|(x, y)| mean(x, y)).collect();
+        Level { width, height, pixels }
+    }
+
     /// Bilinear at (u, v) in [0, 1]²; u wraps, v wraps or is held at the edge.
     fn sample(&self, uv: Vec2, wrap_v: bool) -> Vec3 {
         let (x, y) = (uv.x * self.width as f32 - 0.5, uv.y * self.height as f32 - 0.5);
@@ -44,20 +53,18 @@ pub struct Pyramid {
 }
 
 impl Pyramid {
-    /// The pyramid of a surface's image, each level half the one before.
+    /// The pyramid of a surface's image, each level half the one before: means of light.
     pub fn of(image: &Image) -> Pyramid {
-        let mut levels = Vec::new();
-        let mut level = image::RgbaImage::from_raw(image.width, image.height, image.rgba.clone())
+        let mut whole = image::RgbaImage::from_raw(image.width, image.height, image.rgba.clone())
             .unwrap_or_else(|| image::RgbaImage::from_pixel(1, 1, image::Rgba([255; 4])));
-        for mip in 0..=SIZE.ilog2() {
-            let size = SIZE >> mip;
-            if level.width() != size || level.height() != size {
-                level = image::imageops::resize(&level, size, size, image::imageops::FilterType::Triangle);
-            }
-            let pixels = level.pixels().map(|p| Vec3::new(decode(p[0]), decode(p[1]), decode(p[2]))).collect();
-            levels.push(Level { width: size as usize, height: size as usize, pixels });
+        if whole.dimensions() != (SIZE, SIZE) {
+            whole = image::imageops::resize(&whole, SIZE, SIZE, image::imageops::FilterType::Triangle);
         }
-        Pyramid { levels, wrap_v: true }
+        let light: [f32; 256] = std::array::from_fn(|byte| decode(byte as u8));
+        let pixels = whole.pixels().map(|p| Vec3::from([p[0], p[1], p[2]].map(|byte| light[usize::from(byte)]))).collect();
+        let whole = Level { width: SIZE as usize, height: SIZE as usize, pixels };
+        let levels = std::iter::successors(Some(whole), |level| (level.width > 1).then(|| level.halved()));
+        Pyramid { levels: levels.collect(), wrap_v: true }
     }
 
     /// At (u, v) and a level of detail: 0 the full size, 1 half of it; between levels linear.

@@ -228,7 +228,7 @@ mod tests {
     /// What does not fit is drawn by its coarsest model, the smallest image first, then left out.
     #[test]
     fn small_images_give_way() {
-        let range = |count: u32| ModelRange { vertices: [0, count], edges: [0, count], triangles: [0, count], material: 0 };
+        let range = |count: u32| ModelRange { vertices: [0, count], edges: [0, count], triangles: [0, count], material: 0, flatness: 1.0 };
         let (model, coarse) = (range(1_000), range(100));
         let image = |width: f64| Placed { model, coarse, width, instance: Instance::default(), nodes: Vec::new(), calmed: false };
         let placed: Vec<Placed> = [3.0, 1.0, 2.0].map(image).into();

@@ -189,7 +189,7 @@ pub struct HeldBody {
     pub first_model: u32,
     pub model_count: u32,
     pub object: u32,
-    pub unused: u32,
+    pub flatness: f32,
 }
 
 /// A model of held bodies; `HeldModel` in WGSL.

@@ -60,7 +60,7 @@ impl HeldBodies {
             first_model,
             model_count,
             object: object.id,
-            unused: 0,
+            flatness: object.model.flatness,
         });
         let [vertices, edges, triangles] = [object.model.vertices[1], object.model.edges[1], object.model.triangles[1]];
         self.count.number += 1;

@@ -194,7 +194,7 @@ pub fn place<'l>(list: &'l mut PlacedList, view: &InstanceView, time: f64, objec
         }
         // Near the hole, relative to the object's size, parts of an image are stretched more than the whole.
         let mut model = if object.reach < 0.1 * position.length() { object.model_for(&extent, settings) } else { object.model };
-        set_strictness(&mut instance, view, &extent, order);
+        set_strictness(&mut instance, view, &extent, object.model.flatness, order);
         instance.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
         let (mut nodes, mut calmed) = local_motion.map_or((Vec::new(), false), |local_motion| (local_motion.nodes, local_motion.calmed));
         let has_numbers = instance.is_finite() && nodes.iter().flatten().flatten().all(|x| x.is_finite());
@@ -217,9 +217,11 @@ pub fn place<'l>(list: &'l mut PlacedList, view: &InstanceView, time: f64, objec
 }
 
 /// Says how strictly the chords of an image are held to their curves, and whether it is a thin one or a narrow ring.
-fn set_strictness(instance: &mut Instance, view: &InstanceView, extent: &Extent, order: Order) {
+fn set_strictness(instance: &mut Instance, view: &InstanceView, extent: &Extent, flatness: f32, order: Order) {
     let (width, is_ring) = (extent.width, extent.is_drawn_out());
-    if width < view.settings.thin_below * if is_ring { THINNER_RING } else { 1.0 } && view.settings.min_width > 0.0 {
+    // Of a ring the body's sections across the axis are seen.
+    let section = if is_ring { width / f64::from(flatness) } else { width };
+    if section < view.settings.thin_below && view.settings.min_width > 0.0 {
         instance.flags |= THIN;
         instance.strictness =
             if is_ring { (THIN_RING_BELOW / width).clamp(LEAST_THIN_RING, MOST_THIN_RING) } else { THIN_STRICTNESS } as f32;
@@ -249,10 +251,7 @@ const NARROW_RING_BELOW: f64 = 10.0;
 /// Strictness of thin images. They lie along the edge of the shadow and are widened by half a pixel. So their chords are held this much
 /// closer, and sag and widening together stay under a pixel.
 const THIN_STRICTNESS: f64 = 4.0;
-/// A ring is as wide as the body's section across the axis there. That of a ship's wing is a tenth of its ball, from which the width of
-/// the image is known: rings up to so many times as wide as other images are thin.
-const THINNER_RING: f64 = 8.0;
-/// Strictness of those: chords of both sides bend towards the axis, each by its own, and take or give light by the part of the width that
+/// Strictness of thin rings: chords of both sides bend towards the axis, each by its own, and take or give light by the part of the width that
 /// they sag. With 16 the light of a ship's ring a tenth of a pixel wide is right to 3 %, with 4 to 14 %. Wider ones need less.
 const THIN_RING_BELOW: f64 = 48.0;
 const LEAST_THIN_RING: f64 = 4.0;

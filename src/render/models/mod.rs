@@ -3,6 +3,7 @@
 pub mod coarse;
 pub mod collapse;
 pub mod hiding;
+mod mips;
 pub mod outside;
 pub mod patches;
 
@@ -17,6 +18,7 @@ use crate::render::Gpu;
 use crate::render::gpu::layout::{Growing, TableTexture, new_texture};
 use crate::render::gpu::types::{Material, ModelTriangle, ModelVertex};
 use crate::render::models::hiding::seen_from;
+use crate::render::models::mips::mips;
 use crate::render::models::outside::{AGAINST, ALONG, OPEN, sides};
 
 /// Side of a layer of the texture array, in pixels; images of other sizes are resampled.
@@ -25,7 +27,7 @@ const TEXTURE_SIZE: u32 = 1024;
 const TEXTURE_LAYERS: u32 = 4;
 
 /// Where a model lies in the shared buffers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ModelRange {
     /// First vertex and their number.
     pub vertices: [u32; 2],
@@ -35,6 +37,8 @@ pub struct ModelRange {
     pub triangles: [u32; 2],
     /// First material.
     pub material: u32,
+    /// As [`Model::flatness`].
+    pub flatness: f32,
 }
 
 /// No vertex is opposite to an edge, or more than two are; as in shaders/geometry/bindings.wgsl.
@@ -175,6 +179,7 @@ impl ModelSet {
             edges: [self.edges.len() as u32, prepared.edges.len() as u32],
             triangles: [self.triangles.len() as u32, prepared.triangles.len() as u32],
             material: self.materials.len() as u32,
+            flatness: model.flatness(),
         };
         self.vertices.extend(prepared.vertices);
         self.edges.extend(prepared.edges);
@@ -298,18 +303,4 @@ impl Models {
             );
         }
     }
-}
-
-/// An image in the size of the texture array, and all its halvings.
-fn mips(image: &Image) -> Arc<[RgbaImage]> {
-    let Some(mut level) = RgbaImage::from_raw(image.width, image.height, image.rgba.clone()) else { return Arc::default() };
-    let sizes = (0..=TEXTURE_SIZE.ilog2()).map(|mip| TEXTURE_SIZE >> mip);
-    sizes
-        .map(|size| {
-            if level.width() != size || level.height() != size {
-                level = image::imageops::resize(&level, size, size, image::imageops::FilterType::Triangle);
-            }
-            level.clone()
-        })
-        .collect()
 }

@@ -98,6 +98,16 @@ impl Model {
         self.vertices.iter().map(|vertex| glam::Vec3::from(vertex.position).length()).fold(0.0, f32::max)
     }
 
+    /// How thin sections of it are: the diameter of the ball about the model's origin that holds it, over the least side of its box; 1 to 8.
+    /// A sheet without thickness has 1: it is seen from its face.
+    pub fn flatness(&self) -> f32 {
+        let corners = || self.vertices.iter().map(|vertex| glam::Vec3::from(vertex.position));
+        let least = corners().reduce(glam::Vec3::min).unwrap_or_default();
+        let side = (corners().reduce(glam::Vec3::max).unwrap_or_default() - least).min_element();
+        let diameter = 2.0 * self.radius();
+        if side > 1e-3 * diameter { (diameter / side).clamp(1.0, 8.0) } else { 1.0 }
+    }
+
     /// Bytes that it takes, an image that several materials share once.
     pub fn bytes(&self) -> usize {
         let mut images: Vec<&Arc<Image>> = self.materials.iter().filter_map(|material| material.texture.as_ref()).collect();
