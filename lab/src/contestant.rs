@@ -140,7 +140,7 @@ fn shown(first: &ReadbackPicture, second: &ReadbackPicture, i: usize) -> Shown {
         order: what[1] as u32,
         body: [surface[0], surface[1], second.surface[i][0]],
         // Thin images add up.
-        coverage: if surface[2] < OPAQUE { first.thin.get(i).map_or(0.0, |sum| sum.min(1.0)) } else { 1.0 },
+        coverage: if surface[2] < OPAQUE { first.thin.get(i).map_or(0.0, |sum| sum.min(OPAQUE)) } else { 1.0 },
     }
 }
 

@@ -34,7 +34,7 @@ const LEAST_HEIGHT: f32 = 1e-3;
 /// Factors by which a thin triangle is drawn longer and higher than it is, to the least width.
 fn stretched(length_along: f32, height: f32) -> vec2<f32> {
     let least = frame.least_width;
-    return vec2<f32>(max(1.0, least / max(length_along, LEAST_ALONG)), least / max(height, LEAST_HEIGHT));
+    return max(vec2<f32>(1.0), least / max(vec2<f32>(length_along, height), vec2<f32>(LEAST_ALONG, LEAST_HEIGHT)));
 }
 
 /// Widens a thin triangle about its centroid, along a direction and across it.
@@ -85,9 +85,6 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
     let p2 = pixels(c2);
     let turned = height_on_screen(p0, p1, p2);
     let height = abs(turned);
-    if height >= frame.least_width {
-        return false;
-    }
     // The sum of coverages is right only if each line of sight meets one layer, so backs of closed bodies are left out.
     let leaving = before_turning(instance, seen[i0].leaving + seen[i1].leaving + seen[i2].leaving, seen[i0].path);
     let from_behind = dot(facing.normal, leaving) < 0.0;

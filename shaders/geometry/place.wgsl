@@ -204,11 +204,12 @@ const PLACES: u32 = 32u;
 const LEAST_RADIUS: f32 = 1.0001;
 const LEAST_LOW_SIDE: f32 = 1.001;
 /// As in src/render/instances/mod.rs: least size of a thin image for its stand-in, roundings of a point and of what is put beside them, widths in pixels, and strictness.
-const THIN_SIZE: f32 = 8.0;
+const THIN_SIZE: f32 = 16.0;
 const BESIDE: f32 = 4.0;
 const ROUNDING: f32 = 4e-7;
 const NARROW_RING_BELOW: f32 = 10.0;
 const THIN_STRICTNESS: f32 = 4.0;
+const THIN_RING: f32 = 2.0;
 const THIN_RING_BELOW: f32 = 48.0;
 const LEAST_THIN_RING: f32 = 4.0;
 const MOST_THIN_RING: f32 = 16.0;
@@ -327,16 +328,13 @@ fn image_of(thread: u32) -> Image {
     instance.across_b = beside.y + 0.61 * BESIDE * instance.rounding;
     let whole = abs(body.position.z) > MARGIN * reach;
     instance.crossings = select(-1.0, f32(plane_crossings(frame.outward.z, body.position.z, order)), whole);
-    let is_ring = is_drawn_out(extent);
-    // Of a ring the body's sections across the axis are seen.
-    let section = width / select(1.0, body.flatness, is_ring);
-    let is_thin = section < held_frame.thin_below && held_frame.has_thin == 1u;
-    let thin_strictness = select(THIN_STRICTNESS, clamp(THIN_RING_BELOW / width, LEAST_THIN_RING, MOST_THIN_RING), is_ring);
+    let thin = is_thin(body, extent);
+    let thin_strictness = select(THIN_STRICTNESS, clamp(THIN_RING_BELOW / width, LEAST_THIN_RING, MOST_THIN_RING), is_drawn_out(extent));
     instance.flags = INSTANCE_STATIC | held_frame.flags | select(0u, INSTANCE_TWO_SIDED, distance < reach)
         | select(0u, INSTANCE_MINUS, minus)
-        | select(select(0u, INSTANCE_NARROW_RING, width < NARROW_RING_BELOW && order > 1u), INSTANCE_THIN, is_thin);
+        | select(select(0u, INSTANCE_NARROW_RING, width < NARROW_RING_BELOW && order > 1u), INSTANCE_THIN, thin);
     instance.strictness = held_frame.strictness
-        * select(clamp(NARROW_IMAGE_BELOW / width, 1.0, MOST_NARROW_STRICTNESS), thin_strictness, is_thin);
+        * select(clamp(NARROW_IMAGE_BELOW / width, 1.0, MOST_NARROW_STRICTNESS), thin_strictness, thin);
     let has_numbers = finite_vector(offset) && finite_vector(vec3<f32>(beside, instance.strictness))
         && finite_vector(instance.bound_high.middle + instance.bound_low.middle + instance.bound_look.middle);
     if !has_numbers {
@@ -392,6 +390,12 @@ fn plane_crossings(camera_height: f32, height: f32, order: u32) -> u32 {
     return select(order, order - 1u, is_across == (order % 2u == 0u));
 }
 
+/// Whether an image is so narrow that a ray a pixel may miss it.
+fn is_thin(body: HeldBody, extent: Extent) -> bool {
+    let wider = select(1.0, THIN_RING * body.flatness, is_drawn_out(extent));
+    return extent.width < held_frame.thin_below * wider && held_frame.has_thin == 1u;
+}
+
 /// What is drawn of a body in an image of this extent: the first that may stand for it in one so small, or itself.
 fn model_for(body: HeldBody, extent: Extent) -> u32 {
     let full = body.first_model + body.model_count - 1u;
@@ -399,7 +403,9 @@ fn model_for(body: HeldBody, extent: Extent) -> u32 {
         return body.first_model;
     }
     // Light may draw an image out along the ring.
-    let size = max(max(extent.width, extent.length), select(0.0, THIN_SIZE, extent.width < held_frame.thin_below));
+    let thin = is_thin(body, extent);
+    // Of a thin one what is seen is how wide it is.
+    let size = max(max(extent.width, select(extent.length, 0.0, thin && is_drawn_out(extent))), select(0.0, THIN_SIZE, thin));
     for (var model = body.first_model; model < full; model++) {
         if size < held_frame.allowed * models[model].below {
             return model;

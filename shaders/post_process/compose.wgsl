@@ -1,7 +1,7 @@
 // Lays the sum of the thin triangles over the picture, once: their mean colour, as far as they cover the pixel. In tiles, and only in those
 // that have some.
 
-#import lensrunner::post_process::coverage::{before_later, covered}
+#import lensrunner::post_process::coverage::{before_later, covered, overfull}
 #import lensrunner::post_process::tiles::{tile_corner, tile_grid}
 
 /// Those of geometry/thin_lists.wgsl.
@@ -37,5 +37,6 @@ fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let part = covered(sum.a, coverages.x);
     let weight = before_later(part, coverages.y);
     // Triangles that fold over are taken off again, which rounding may overdo.
-    return vec4<f32>(max(sum.rgb, vec3<f32>(0.0)) * (weight / sum.a), weight);
+    let light = weight / sum.a * overfull(sum.a, coverages.x);
+    return vec4<f32>(max(sum.rgb, vec3<f32>(0.0)) * light, weight);
 }

@@ -143,20 +143,25 @@ pub struct PlanetEntry {
     aurora_flux: Option<Spanned<f64>>,
 }
 
+/// The fastest that a point of a planet's surface goes round its axis, in c: motion across a body is drawn up to c/2.
+const FASTEST_EQUATOR: f64 = 0.4;
+
 /// Checks the planet against its ranges.
 pub fn check_planet(entry: &PlanetEntry) -> Result<Planet, Fault> {
     let or = |value: &Option<Spanned<f64>>, key, low, high, unit, default| {
         value.as_ref().map_or(Ok(default), |value| in_range(value, key, low..=high, unit))
     };
     let orbit_radius = in_range(&entry.orbit_radius, "orbit_radius", 3.0..=1e4, "r_s")?;
+    let radius = in_range(&entry.radius, "radius", 1e-3..=0.5 * orbit_radius, "r_s")?;
+    let shortest_day = TAU * radius / FASTEST_EQUATOR;
     Ok(Planet {
         orbit: Elements {
             inclination: or(&entry.inclination, "inclination", 0.0, PI, "rad", 0.0)?,
             node: or(&entry.node, "node", -1e6, 1e6, "rad", 0.0)?,
             ..Elements::circle(orbit_radius, or(&entry.phase, "phase", -1e6, 1e6, "rad", 0.0)?)
         },
-        radius: in_range(&entry.radius, "radius", 1e-3..=0.5 * orbit_radius, "r_s")?,
-        day: or(&entry.day, "day", 0.1, 1e9, "r_s/c", 40.0)?,
+        radius,
+        day: or(&entry.day, "day", shortest_day, 1e9, "r_s/c", f64::max(40.0, shortest_day))?,
         axis_tilt: or(&entry.axis_tilt, "axis_tilt", 0.0, PI, "rad", 0.0)?,
         dipole_tilt: or(&entry.dipole_tilt, "dipole_tilt", 0.0, PI, "rad", 0.0)?,
         seed: entry.seed,

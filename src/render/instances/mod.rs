@@ -44,7 +44,7 @@ pub enum ObjectMotion<'a> {
 
 /// A stand-in for a thin image is chosen as for one of at least this size, in pixels: its light is that of its area, which is to be right
 /// to some hundredths.
-const THIN_SIZE: f64 = 8.0;
+const THIN_SIZE: f64 = 16.0;
 
 /// A coarse model for small images.
 #[derive(Clone, Copy, Debug)]
@@ -83,9 +83,10 @@ impl DrawnObject<'_> {
             return self.coarse;
         }
         let allowed = f64::from(settings.pixel_error) / 0.5;
-        let least = if extent.width < settings.thin_below { THIN_SIZE } else { 0.0 };
-        // Light may draw an image out along the ring.
-        let size = extent.width.max(extent.length).max(least);
+        let least = if is_thin(extent, self.model.flatness, settings) { THIN_SIZE } else { 0.0 };
+        // Light may draw an image out along the ring. Of a thin one what is seen is how wide it is.
+        let length = if least > 0.0 && extent.is_drawn_out() { 0.0 } else { extent.length };
+        let size = extent.width.max(length).max(least);
         self.stand_ins.iter().find(|stand_in| size < allowed * stand_in.below).map_or(self.model, |stand_in| stand_in.model)
     }
 }
@@ -216,15 +217,20 @@ pub fn place<'l>(list: &'l mut PlacedList, view: &InstanceView, time: f64, objec
     &mut placed[first..]
 }
 
+/// Whether an image is so narrow that a ray a pixel may miss it. A ring shows the body's sections across the axis, and is narrower at most
+/// azimuths than its ball.
+fn is_thin(extent: &Extent, flatness: f32, settings: &Settings) -> bool {
+    let wider = if extent.is_drawn_out() { THIN_RING * f64::from(flatness) } else { 1.0 };
+    extent.width < settings.thin_below * wider && settings.min_width > 0.0
+}
+
 /// Says how strictly the chords of an image are held to their curves, and whether it is a thin one or a narrow ring.
 fn set_strictness(instance: &mut Instance, view: &InstanceView, extent: &Extent, flatness: f32, order: Order) {
-    let (width, is_ring) = (extent.width, extent.is_drawn_out());
-    // Of a ring the body's sections across the axis are seen.
-    let section = if is_ring { width / f64::from(flatness) } else { width };
-    if section < view.settings.thin_below && view.settings.min_width > 0.0 {
+    let width = extent.width;
+    if is_thin(extent, flatness, view.settings) {
+        let of_ring = (THIN_RING_BELOW / width).clamp(LEAST_THIN_RING, MOST_THIN_RING);
         instance.flags |= THIN;
-        instance.strictness =
-            if is_ring { (THIN_RING_BELOW / width).clamp(LEAST_THIN_RING, MOST_THIN_RING) } else { THIN_STRICTNESS } as f32;
+        instance.strictness = if extent.is_drawn_out() { of_ring } else { THIN_STRICTNESS } as f32;
     } else {
         instance.flags |= if width < NARROW_RING_BELOW && order.number() > 1 { NARROW_RING } else { 0 };
         instance.strictness = (NARROW_IMAGE_BELOW / width).clamp(1.0, MOST_NARROW_STRICTNESS) as f32;
@@ -251,6 +257,8 @@ const NARROW_RING_BELOW: f64 = 10.0;
 /// Strictness of thin images. They lie along the edge of the shadow and are widened by half a pixel. So their chords are held this much
 /// closer, and sag and widening together stay under a pixel.
 const THIN_STRICTNESS: f64 = 4.0;
+/// The ring of a ball beside the axis grows narrower to both ends: it is thin below so many times the width.
+const THIN_RING: f64 = 2.0;
 /// Strictness of thin rings: chords of both sides bend towards the axis, each by its own, and take or give light by the part of the width that
 /// they sag. With 16 the light of a ship's ring a tenth of a pixel wide is right to 3 %, with 4 to 14 %. Wider ones need less.
 const THIN_RING_BELOW: f64 = 48.0;

@@ -67,9 +67,13 @@ impl Light {
     pub fn fault(&self, limits: &Limits) -> Option<Fault> {
         let excess = self.excess(limits);
         (self.counts() && excess > 1.0).then(|| {
-            let [shown, judge, allowed] = [self.shown, self.judge, self.allowed(limits)].map(|light| light.element_sum() / 3.0);
+            let allowed = self.allowed(limits);
+            let off = (self.shown - self.judge).abs() / allowed.max(DVec3::splat(1e-12));
+            let channel = (0..3).max_by(|a, b| off[*a].total_cmp(&off[*b])).unwrap_or(0);
+            let [shown, judge, allowed] = [self.shown, self.judge, allowed].map(|light| light[channel]);
             let percent = 100.0 * allowed / judge.max(1e-12);
-            let text = format!("{} order {}: light of {shown:.4}, not {judge:.4} (give or take {percent:.0} %)", self.name, self.image.1);
+            let (who, colour) = (format!("{} order {}", self.name, self.image.1), ["red", "green", "blue"][channel]);
+            let text = format!("{who}: {colour} light of {shown:.4}, not {judge:.4} (give or take {percent:.0} %)");
             Fault::new(Kind::Light, excess, 1.0, text)
         })
     }
@@ -145,6 +149,8 @@ struct Met {
     light: DVec3,
     /// The squares of that.
     squares: DVec3,
+    /// The squares of the light of single rays.
+    ray_squares: DVec3,
 }
 
 impl Sampled {
@@ -152,7 +158,8 @@ impl Sampled {
         self.rounds += more.rounds;
         for (image, met) in more.met {
             let sum = self.met.entry(image).or_default();
-            (sum.part, sum.light, sum.squares) = (sum.part + met.part, sum.light + met.light, sum.squares + met.squares);
+            (sum.part, sum.light) = (sum.part + met.part, sum.light + met.light);
+            (sum.squares, sum.ray_squares) = (sum.squares + met.squares, sum.ray_squares + met.ray_squares);
         }
     }
 
@@ -164,7 +171,13 @@ impl Sampled {
         self.met.get(&image).map_or(DVec3::ZERO, |met| met.light / f64::from(self.rounds))
     }
 
-    /// The variance of that.
+    /// The variance of the light of one ray.
+    fn ray_variance(&self, image: Image) -> DVec3 {
+        let mean = self.light(image);
+        self.met.get(&image).map_or(DVec3::ZERO, |met| (met.ray_squares / f64::from(self.rounds) - mean * mean).max(DVec3::ZERO))
+    }
+
+    /// The variance of the mean of all.
     fn variance(&self, image: Image) -> DVec3 {
         let rounds = f64::from(self.rounds);
         self.met.get(&image).map_or(DVec3::ZERO, |met| {
@@ -233,18 +246,19 @@ impl<'a> Pair<'a> {
         let mut sampled = Sampled { rounds, ..Sampled::default() };
         for round in before..before + rounds {
             let mut chance = StdRng::seed_from_u64((i as u64) << 32 | u64::from(round));
-            let mut met: BTreeMap<Image, (f64, DVec3)> = BTreeMap::new();
+            let mut met: BTreeMap<Image, (f64, DVec3, DVec3)> = BTreeMap::new();
             for k in 0..SIDE * SIDE {
                 let [across, down] = [k % SIDE, k / SIDE].map(|step| (f64::from(step) + chance.random::<f64>()) / f64::from(SIDE));
                 if let Some(lit) = probe.lit(x + across, y + down) {
-                    let (part, light) = met.entry(lit.image).or_default();
-                    *part += 1.0 / f64::from(SIDE * SIDE);
-                    *light += lit.light.as_dvec3() / f64::from(SIDE * SIDE);
+                    let (part, light, ray_squares) = met.entry(lit.image).or_default();
+                    let (weight, here) = (1.0 / f64::from(SIDE * SIDE), lit.light.as_dvec3());
+                    (*part, *light, *ray_squares) = (*part + weight, *light + here * weight, *ray_squares + here * here * weight);
                 }
             }
-            for (image, (part, light)) in met {
+            for (image, (part, light, ray_squares)) in met {
                 let sum = sampled.met.entry(image).or_default();
-                (sum.part, sum.light, sum.squares) = (sum.part + part, sum.light + light, sum.squares + light * light);
+                (sum.part, sum.light) = (sum.part + part, sum.light + light);
+                (sum.squares, sum.ray_squares) = (sum.squares + light * light, sum.ray_squares + ray_squares);
             }
         }
         sampled
@@ -280,16 +294,14 @@ impl<'a> Pair<'a> {
                 of(image, &|light| light.shown += part);
             }
             for image in pixel.met.keys().copied() {
-                let part = pixel.part(image);
-                // Kept as variances for now.
                 let by_centre = self.frame.shown[i].coverage == 1.0 || self.frame.shown[i].object == 0;
                 let around = || self.grid.around(i).into_iter().map(|j| self.part_at(j, image, sampled)).sum::<f64>();
-                let may_be_rough = by_centre && part < 1.0 && around() > HALF_A_PIXEL_WIDE;
-                let colour = pixel.light(image) / part.max(1e-9);
+                let may_be_rough = by_centre && around() > HALF_A_PIXEL_WIDE;
+                // Kept as variances for now.
                 of(image, &|light| {
                     light.judge += pixel.light(image);
                     light.noise += pixel.variance(image);
-                    light.outline += if may_be_rough { part * (1.0 - part) * colour * colour } else { DVec3::ZERO };
+                    light.outline += if may_be_rough { pixel.ray_variance(image) } else { DVec3::ZERO };
                 });
             }
         }
