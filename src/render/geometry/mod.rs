@@ -21,7 +21,7 @@ use crate::lensing::methods::Method;
 use crate::render::Gpu;
 use crate::render::aurora::ground::GroundFrame;
 use crate::render::gpu::layout::{
-    Growing, HDR_FORMAT, MASK_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTexture, bind, buffer, layout, module, raster_of,
+    Growing, HDR_FORMAT, MASK_FORMAT, Raster, Slot, TableTexture, bind, buffer, layout, module, raster_of, thin_formats,
 };
 use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::shaders::Pass;
@@ -103,7 +103,7 @@ impl Draws {
         let pipeline = draw_pipeline(device, frame_layout, draw_layout);
         let one = |operation| wgpu::BlendComponent { src_factor: wgpu::BlendFactor::One, dst_factor: wgpu::BlendFactor::One, operation };
         let sum = wgpu::BlendState { color: one(wgpu::BlendOperation::Add), alpha: one(wgpu::BlendOperation::Add) };
-        let sums = [(HDR_FORMAT, Some(sum)), (SIGNED_FORMAT, Some(sum))];
+        let sums = thin_formats(device).map(|format| (format, Some(sum)));
         let thin = |vertex| pipeline(vertex, Raster { vertex, fragment: "thin_fragment", targets: &sums, depth: Some(false) });
         let picture = [(HDR_FORMAT, None)];
         let opaque = Raster { vertex: "opaque_vertex", fragment: "opaque_fragment", targets: &picture, depth: Some(true) };

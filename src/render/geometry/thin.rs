@@ -3,7 +3,7 @@
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
-use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slot, bind, buffer, compute, layout, module, raster};
+use crate::render::gpu::layout::{Growing, Raster, Slot, bind, buffer, compute, layout, module, raster, thin_formats};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::tiles;
 use crate::render::gpu::types;
@@ -42,8 +42,8 @@ impl ThinLists {
         let list_layout = layout(device, "thin lists", ShaderStages::COMPUTE, &[Read, Read, Write, Write, Write]);
         let tiles_layout = tiles_layout(device);
         let shader = module(device, "thin wipe", Pass::Compose);
-        let stage =
-            Raster { vertex: "vertex", fragment: "wipe", targets: &[(HDR_FORMAT, None), (SIGNED_FORMAT, None)], depth: Some(false) };
+        let targets = thin_formats(device).map(|format| (format, None));
+        let stage = Raster { vertex: "vertex", fragment: "wipe", targets: &targets, depth: Some(false) };
         ThinLists {
             list: compute(device, "thin lists", Pass::ThinLists, "main", &[Some(frame_layout), Some(&list_layout)]),
             list_layout,

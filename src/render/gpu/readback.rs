@@ -85,6 +85,18 @@ pub async fn texture_later(gpu: &Gpu, source: &wgpu::Texture, bytes: u32) -> Res
     Ok(padded.chunks_exact(row as usize).flat_map(|line| &line[..(width * bytes) as usize]).copied().collect())
 }
 
+/// The numbers of a texture of floats of 16 or 32 bits, all channels of a texel together.
+pub async fn numbers(gpu: &Gpu, source: &wgpu::Texture) -> Result<Vec<f32>, PictureError> {
+    let format = source.format();
+    let texel = format.block_copy_size(None).unwrap_or_default();
+    let bytes = texture_later(gpu, source, texel).await?;
+    Ok(if texel == 2 * u32::from(format.components()) {
+        bytes.chunks_exact(2).map(|number| half::f16::from_le_bytes([number[0], number[1]]).to_f32()).collect()
+    } else {
+        bytes.chunks_exact(4).map(bytemuck::pod_read_unaligned).collect()
+    })
+}
+
 /// The texels of a texture of four 32-bit floats a texel.
 pub async fn floats(gpu: &Gpu, source: &wgpu::Texture) -> Result<Vec<[f32; 4]>, PictureError> {
     let bytes = texture_later(gpu, source, 16).await?;

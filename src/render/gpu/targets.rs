@@ -1,6 +1,6 @@
 //! The textures that a frame is drawn into, all of one size.
 
-use crate::render::gpu::layout::{DEPTH_FORMAT, HDR_FORMAT, SIGNED_FORMAT, new_texture};
+use crate::render::gpu::layout::{DEPTH_FORMAT, HDR_FORMAT, new_texture, thin_formats};
 
 /// Format of the layers of a picture.
 pub const LAYERS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
@@ -68,8 +68,9 @@ impl Targets {
     pub fn new(device: &wgpu::Device, size: [u32; 2], output: [u32; 2]) -> Self {
         let size = size.map(|side| side.max(1));
         let (picture_texture, picture) = target(device, "picture", size, HDR_FORMAT);
-        let (thin_texture, thin) = target(device, "thin", size, HDR_FORMAT);
-        let (thin_signed_texture, thin_signed) = target(device, "thin signed", size, SIGNED_FORMAT);
+        let [sums, signed] = thin_formats(device);
+        let (thin_texture, thin) = target(device, "thin", size, sums);
+        let (thin_signed_texture, thin_signed) = target(device, "thin signed", size, signed);
         let finest = if 2 * size[0] > output[0] { 4 } else { 2 };
         let glow = target(device, "glow", size.map(|side| side.div_ceil(finest)), HDR_FORMAT).1;
         let mut bloom = Vec::new();

@@ -88,7 +88,7 @@ impl PostProcess {
     pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, output: wgpu::TextureFormat) -> Self {
         let fragment = ShaderStages::FRAGMENT;
         let sampled_layout = layout(device, "sampled", fragment, &[Slot::Texture, Slot::Sampler]);
-        let thin_layout = layout(device, "thin", fragment, &[Slot::Texture, Slot::Texture]);
+        let thin_layout = layout(device, "thin", fragment, &[Slot::Numbers, Slot::Numbers]);
         let meter_layout = layout(device, "meter", ShaderStages::COMPUTE, &[Slot::Texture, Slot::Texture, Slot::Write]);
         let tone_map_layout = layout(device, "tone map", fragment, &[Slot::Texture, Slot::Sampler, Slot::Texture, Slot::Uniform]);
         let pass = |label, pass, fragment, layout: &wgpu::BindGroupLayout, format, blend| {

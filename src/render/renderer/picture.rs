@@ -38,11 +38,8 @@ impl Renderer {
         if self.upscale.drawn().is_some() {
             return Ok(ReadbackPicture { size: self.output.0, display, ..ReadbackPicture::default() });
         }
-        let halves = readback::texture_later(&self.gpu, &self.targets.picture_texture, 8).await?;
-        let linear = halves
-            .chunks_exact(8)
-            .map(|texel| std::array::from_fn(|k| half::f16::from_le_bytes([texel[2 * k], texel[2 * k + 1]]).to_f32()))
-            .collect();
+        let numbers = readback::numbers(&self.gpu, &self.targets.picture_texture).await?;
+        let linear = numbers.chunks_exact(4).map(|texel| [texel[0], texel[1], texel[2], texel[3]]).collect();
         let (layers, surface) = match &self.targets.layers {
             Some(targets) if layers => {
                 (readback::floats(&self.gpu, &targets.what.0).await?, readback::floats(&self.gpu, &targets.surface.0).await?)
@@ -50,10 +47,9 @@ impl Renderer {
             _ => Default::default(),
         };
         let thin = if !layers.is_empty() && self.geometry.has_thin() {
-            let sums = readback::texture_later(&self.gpu, &self.targets.thin_texture, 8).await?;
-            let signed = readback::texture_later(&self.gpu, &self.targets.thin_signed_texture, 4).await?;
-            let number = |bytes: &[u8]| half::f16::from_le_bytes([bytes[0], bytes[1]]).to_f32();
-            sums.chunks_exact(8).zip(signed.chunks_exact(4)).map(|(sum, signed)| covered(number(&sum[6..]), number(signed))).collect()
+            let sums = readback::numbers(&self.gpu, &self.targets.thin_texture).await?;
+            let signed = readback::numbers(&self.gpu, &self.targets.thin_signed_texture).await?;
+            sums.chunks_exact(4).zip(signed.chunks_exact(2)).map(|(sum, signed)| covered(sum[3], signed[0])).collect()
         } else {
             Vec::new()
         };
