@@ -46,3 +46,35 @@ fn thin_images_of_a_ship_cover_what_the_judge_sees_of_them() {
     // Measured 0.655 and 0.667.
     assert!(drawn.len() > 40 && (sum - seen).abs() < 0.04);
 }
+
+/// A ship exactly behind the hole, and a little beside: its ring is a tenth of a pixel wide at most azimuths.
+#[test]
+fn a_ring_thinner_than_a_pixel_is_as_bright_as_it_should_be() {
+    use lensrunner_lab::compare::deadline::Deadline;
+    use lensrunner_lab::compare::fault::Limits;
+    use lensrunner_lab::compare::measure::light::lights;
+    use lensrunner_lab::compare::measure::probe::probe;
+    for z in [0.0, 0.06] {
+        let text = format!(
+            "[camera]\nposition = [6.0, 0.0137, {z}]\nlook = [-1.0, 0.0, 0.0]\nfov = 60.0\n\
+             [[ship]]\nname = \"hunter\"\nmodel = \"hunter\"\nposition = [-6.0, 0.0, 0.0]\nmomentum = [-0.40825, 0.0, 0.0]\n\
+             [sky]\nstars = false\nmilky_way = false\n"
+        );
+        let scene = scene::Scene::from_toml(std::path::Path::new("test.toml"), &text).unwrap();
+        let case = Case::new(scene, GameConfig::default(), 0.0, [192, 108]);
+        let frame = contestant::draw(&case).unwrap();
+        let judge = case.trace(&Sampling { samples: 1, tolerance: 1e-8, packet: 8 }, false, &|_| ());
+        let names = ["hunter".to_owned()];
+        let limits = Limits::default();
+        let found = lights(&judge, &frame, &probe(&case, 1e-8), &names, &limits, 16, &Deadline::never());
+        let drawn: Vec<_> = found.iter().filter(|light| light.image.1 <= 2).collect();
+        assert_eq!(drawn.len(), 2, "two orders");
+        for light in drawn {
+            println!("z = {z}, order {}: {} by the judge {} ± {}", light.image.1, light.shown.x, light.judge.x, light.noise.x);
+            // Measured ratios of 0.99 to 1.05, the judge's noise being 0.015 of them. By centres of pixels they were 0.84 to 1.22.
+            assert!((light.shown.x / light.judge.x - 1.0).abs() < 0.08 && light.noise.x < 0.03 * light.judge.x);
+            assert!(light.outline.x < 0.02 * light.judge.x, "it is not drawn by centres");
+            assert_eq!(light.fault(&limits), None);
+        }
+    }
+}

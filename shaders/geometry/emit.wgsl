@@ -12,9 +12,9 @@
 #import lensrunner::instances::instance::{in_body_axes, instance_at}
 #import lensrunner::models::hiding::seen_part
 
-/// Height of a triangle on the screen over its longest side, in pixels; negative if its corners run clockwise. In a thin image it decides
-/// how the triangle is drawn. If it is at least `render.min_width`, as it is; else widened to that, with the covered share as alpha, so
-/// that narrow images are lines and not dots.
+/// Height of a triangle on the screen over its longest side, in pixels; negative if its corners run clockwise. A triangle of a thin image
+/// that is lower than `render.min_width` is widened to that, with the covered share as alpha, so that narrow images are lines and not dots.
+/// Higher ones are drawn as they are, but added to the same sums: else a part of the others' light would be hidden under them.
 fn height_on_screen(p0: vec2<f32>, p1: vec2<f32>, p2: vec2<f32>) -> f32 {
     let a = p1 - p0;
     let b = p2 - p0;
@@ -70,7 +70,7 @@ fn share_across(instance: Instance, heights: vec3<f32>) -> f32 {
 /// A triangle narrower than the error of its corners (chords, f32) may be folded over: it covers what the next one covers again. So areas
 /// count with the sense in which the corners run, and over all triangles the double cover cancels.
 fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen_from: u32) -> bool {
-    if !is_thin(instance) {
+    if !is_thin(instance) || frame.least_width <= 0.0 {
         return false;
     }
     let c0 = clip_position(seen[i0].apparent);

@@ -204,7 +204,7 @@ const PLACES: u32 = 32u;
 const LEAST_RADIUS: f32 = 1.0001;
 const LEAST_LOW_SIDE: f32 = 1.001;
 /// As in src/render/instances/mod.rs: least size of a thin image for its stand-in, roundings of a point and of what is put beside them, widths in pixels, and strictness.
-const THIN_SIZE: f32 = 16.0;
+const THIN_SIZE: f32 = 8.0;
 const BESIDE: f32 = 4.0;
 const ROUNDING: f32 = 4e-7;
 const NARROW_RING_BELOW: f32 = 10.0;
@@ -403,9 +403,7 @@ fn model_for(body: HeldBody, extent: Extent) -> u32 {
         return body.first_model;
     }
     // Light may draw an image out along the ring.
-    let thin = is_thin(body, extent);
-    // Of a thin one what is seen is how wide it is.
-    let size = max(max(extent.width, select(extent.length, 0.0, thin && is_drawn_out(extent))), select(0.0, THIN_SIZE, thin));
+    let size = max(max(extent.width, extent.length), select(0.0, THIN_SIZE, is_thin(body, extent)));
     for (var model = body.first_model; model < full; model++) {
         if size < held_frame.allowed * models[model].below {
             return model;

@@ -191,6 +191,7 @@ fn complaints_name_file_line_key_and_range() {
         ("[disk]\narcs = 4\n", ["some/scene.toml:2:", "disk.arcs", "4 is out of range", "16 to 50000"]),
         ("[disk]\narcs = 570\nouter = 4.0\ninner = 6.5\n", ["some/scene.toml:4:", "disk.inner = 6.5", "less than", "disk.outer = 4"]),
         ("[disk]\ninner = \"three\"\n", ["some/scene.toml:2:", "disk.inner", "wrong type", "3 to 50 r_s"]),
+        ("[planet]\norbit_radius = 20.0\nradius = 2.0\nday = 30.0\n", ["some/scene.toml:4:", "planet.day", "31.4", "r_s/c"]),
         ("[planet]\norbit_radius = 2.0\nradius = 0.5\n", ["some/scene.toml:2:", "planet.orbit_radius", "2", "r_s"]),
         ("[rules]\nhold_time = -1.0\n", ["some/scene.toml:2:", "rules.hold_time", "-1", "r_s/c"]),
         ("[sky]\nstars = 3\n", ["some/scene.toml:2:", "sky.stars", "true or false", "3"]),

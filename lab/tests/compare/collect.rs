@@ -33,6 +33,7 @@ fn verdict(orders: u32) -> Verdict {
         flip: 0.01,
         displaced: vec![],
         areas: vec![],
+        lights: vec![],
     }
 }
 

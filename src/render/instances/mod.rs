@@ -44,7 +44,7 @@ pub enum ObjectMotion<'a> {
 
 /// A stand-in for a thin image is chosen as for one of at least this size, in pixels: its light is that of its area, which is to be right
 /// to some hundredths.
-const THIN_SIZE: f64 = 16.0;
+const THIN_SIZE: f64 = 8.0;
 
 /// A coarse model for small images.
 #[derive(Clone, Copy, Debug)]
@@ -84,9 +84,8 @@ impl DrawnObject<'_> {
         }
         let allowed = f64::from(settings.pixel_error) / 0.5;
         let least = if is_thin(extent, self.model.flatness, settings) { THIN_SIZE } else { 0.0 };
-        // Light may draw an image out along the ring. Of a thin one what is seen is how wide it is.
-        let length = if least > 0.0 && extent.is_drawn_out() { 0.0 } else { extent.length };
-        let size = extent.width.max(length).max(least);
+        // Light may draw an image out along the ring.
+        let size = extent.width.max(extent.length).max(least);
         self.stand_ins.iter().find(|stand_in| size < allowed * stand_in.below).map_or(self.model, |stand_in| stand_in.model)
     }
 }

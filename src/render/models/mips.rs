@@ -5,8 +5,10 @@ use std::sync::{Arc, LazyLock};
 
 use image::RgbaImage;
 
-use super::TEXTURE_SIZE;
 use crate::scene::model::Image;
+
+/// Side of a layer of the texture array, in pixels; images of other sizes are resampled.
+pub const TEXTURE_SIZE: u32 = 1024;
 
 /// The image at the size of the texture array, and each half of it down to one texel.
 pub fn mips(image: &Image) -> Arc<[RgbaImage]> {

@@ -18,11 +18,9 @@ use crate::render::Gpu;
 use crate::render::gpu::layout::{Growing, TableTexture, new_texture};
 use crate::render::gpu::types::{Material, ModelTriangle, ModelVertex};
 use crate::render::models::hiding::seen_from;
-use crate::render::models::mips::mips;
+use crate::render::models::mips::{TEXTURE_SIZE, mips};
 use crate::render::models::outside::{AGAINST, ALONG, OPEN, sides};
 
-/// Side of a layer of the texture array, in pixels; images of other sizes are resampled.
-const TEXTURE_SIZE: u32 = 1024;
 /// Layers of the texture array: a scene has few images.
 const TEXTURE_LAYERS: u32 = 4;
 

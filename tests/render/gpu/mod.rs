@@ -2,6 +2,7 @@
 
 mod branches;
 mod fallbacks;
+mod readback;
 mod shaders;
 mod translate;
 mod types;

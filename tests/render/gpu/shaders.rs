@@ -147,9 +147,9 @@ fn the_panorama_is_the_same_in_both_languages() {
 
 #[test]
 fn coverage_is_the_same_in_both_languages_and_right_on_average() {
-    use lensrunner::render::post_process::coverage::{before_later, covered};
+    use lensrunner::render::post_process::coverage::{before_later, covered, overfull};
     let body = "#import lensrunner::post_process::coverage::coverage_sign
-    twin_out[id.x] = vec4<f32>(covered(row.x, row.y), coverage_sign(id.x), before_later(row.x / 3.0, row.y), 0.0);";
+    twin_out[id.x] = vec4<f32>(covered(row.x, row.y), coverage_sign(id.x), before_later(row.x / 3.0, row.y), overfull(row.x, row.y));";
     let mut random = StdRng::seed_from_u64(9);
     let rows: Vec<[f32; 4]> = (0..4000u32)
         .map(|i| {
@@ -161,6 +161,8 @@ fn coverage_is_the_same_in_both_languages_and_right_on_average() {
     for (row, got) in rows.iter().zip(&out) {
         let want = covered(row[0], row[1]);
         assert!(close(got[0], want, 2e-4), "{row:?}: {} on the GPU, {want} in Rust", got[0]);
+        let want = overfull(row[0], row[1]);
+        assert!(close(got[3], want, 2e-4), "{row:?}: {} on the GPU, {want} in Rust", got[3]);
         let want = before_later(row[0] / 3.0, row[1]);
         assert!(close(got[2], want, 2e-4), "{row:?}: {} on the GPU, {want} in Rust", got[2]);
     }
@@ -171,6 +173,8 @@ fn coverage_is_the_same_in_both_languages_and_right_on_average() {
     // One image alone covers what its triangles add up to; the signs are even.
     assert!([0.1f32, 0.7, 1.0, 1.3].iter().all(|&c| (covered(c, -c) - c.min(1.0)).abs() < 1e-6));
     assert_eq!(covered(0.0, 0.0), 0.0);
+    // What they add up to beyond that is light.
+    assert_eq!([0.7f32, 1.3, 5.0].map(|c| overfull(c, c)), [1.0, 1.3, 2.0]);
     let plus = out.iter().filter(|got| got[1] > 0.0).count();
     assert!((1800..2200).contains(&plus), "{plus} of 4000 signs are plus");
     // Images that know nothing of each other leave free the product of what each does.

@@ -101,7 +101,7 @@ fn structs_have_one_layout_in_both_languages() {
         (
             "instances::held::HeldBody",
             fields!(HeldBody: position, reach, position_rest, scale, attitude, light ["light_red", "light_green", "light_blue"], first_model,
-            model_count, object, unused),
+            model_count, object, flatness),
         ),
         (
             "instances::held::HeldModel",

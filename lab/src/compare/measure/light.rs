@@ -194,6 +194,8 @@ struct Pair<'a> {
     grid: Grid,
     /// The image that the judge sees in a pixel and all those around it.
     core: Vec<Option<Image>>,
+    /// Images that are wide at most of their pixels: narrow are their tips alone, which pixels' centres may meet or miss.
+    wide: BTreeSet<Image>,
 }
 
 impl<'a> Pair<'a> {
@@ -203,7 +205,14 @@ impl<'a> Pair<'a> {
         let core = (0..judge.layers.len())
             .map(|i| Some(image(i)).filter(|image_here| image_here.0 > 0 && grid.around(i).iter().all(|&j| image(j) == *image_here)))
             .collect();
-        Pair { judge, frame, grid, core }
+        let mut pair = Pair { judge, frame, grid, core, wide: BTreeSet::new() };
+        let mut counts: BTreeMap<Image, [usize; 2]> = BTreeMap::new();
+        for i in (0..judge.layers.len()).filter(|&i| image(i).0 > 0) {
+            let [all, wide] = counts.entry(image(i)).or_default();
+            (*all, *wide) = (*all + 1, *wide + usize::from(pair.is_wide(i, image(i))));
+        }
+        pair.wide = counts.into_iter().filter(|(_, [all, wide])| 2 * wide > *all).map(|(image, _)| image).collect();
+        pair
     }
 
     fn judged(&self, i: usize) -> Image {
@@ -290,13 +299,13 @@ impl<'a> Pair<'a> {
                 }
                 continue;
             };
-            for (image, part) in self.shown_parts(i, pixel) {
+            for (image, part) in self.shown_parts(i, sampled) {
                 of(image, &|light| light.shown += part);
             }
             for image in pixel.met.keys().copied() {
                 let by_centre = self.frame.shown[i].coverage == 1.0 || self.frame.shown[i].object == 0;
                 let around = || self.grid.around(i).into_iter().map(|j| self.part_at(j, image, sampled)).sum::<f64>();
-                let may_be_rough = by_centre && around() > HALF_A_PIXEL_WIDE;
+                let may_be_rough = by_centre && (self.wide.contains(&image) || around() > HALF_A_PIXEL_WIDE);
                 // Kept as variances for now.
                 of(image, &|light| {
                     light.judge += pixel.light(image);
@@ -317,8 +326,9 @@ impl<'a> Pair<'a> {
     }
 
     /// Whose the light is that is shown in a pixel. Thin images are told by the nearest of them alone, and let a part of what is behind
-    /// through: that is as the judge sees it there, and the rest is shared among them as he sees them.
-    fn shown_parts(&self, i: usize, pixel: &Sampled) -> Vec<(Image, DVec3)> {
+    /// through: that is as the judge sees it there. The rest is shared among the thin images as he sees them in the pixels around too, for
+    /// they are drawn a pixel wide.
+    fn shown_parts(&self, i: usize, sampled: &BTreeMap<usize, Sampled>) -> Vec<(Image, DVec3)> {
         let (shown, light) = (&self.frame.shown[i], vector(self.frame.surfaces[i]));
         if shown.object == 0 {
             return Vec::new();
@@ -327,18 +337,26 @@ impl<'a> Pair<'a> {
             return vec![(shown.image(), light)];
         }
         let is_thin = |image: Image| image == shown.image() || !self.is_wide(i, image);
-        let thin: f64 = pixel.met.keys().filter(|image| is_thin(**image)).map(|image| pixel.part(*image)).sum();
         let mut parts = Vec::new();
         let mut rest = light;
-        for image in pixel.met.keys().copied().filter(|image| !is_thin(*image)) {
-            let free = (1.0 - thin).max(pixel.part(image));
-            let behind = (pixel.light(image) * (1.0 - f64::from(shown.coverage)) / free).min(rest);
-            rest -= behind;
-            parts.push((image, behind));
+        if let Some(pixel) = sampled.get(&i) {
+            let thin: f64 = pixel.met.keys().filter(|image| is_thin(**image)).map(|image| pixel.part(*image)).sum();
+            for image in pixel.met.keys().copied().filter(|image| !is_thin(*image)) {
+                let free = (1.0 - thin).max(pixel.part(image));
+                let behind = (pixel.light(image) * (1.0 - f64::from(shown.coverage)) / free).min(rest);
+                rest -= behind;
+                parts.push((image, behind));
+            }
         }
-        let sum: DVec3 = pixel.met.keys().filter(|image| is_thin(**image)).map(|image| pixel.light(*image)).sum();
-        if sum.min_element() > 0.0 && pixel.met.contains_key(&shown.image()) {
-            parts.extend(pixel.met.keys().filter(|image| is_thin(**image)).map(|image| (*image, rest * pixel.light(*image) / sum)));
+        let mut near: BTreeMap<Image, DVec3> = BTreeMap::new();
+        for pixel in self.grid.around(i).iter().filter_map(|j| sampled.get(j)) {
+            for image in pixel.met.keys().copied().filter(|image| is_thin(*image)) {
+                *near.entry(image).or_default() += pixel.light(image);
+            }
+        }
+        let sum: DVec3 = near.values().sum();
+        if sum.min_element() > 0.0 && near.contains_key(&shown.image()) {
+            parts.extend(near.into_iter().map(|(image, light)| (image, rest * light / sum)));
         } else {
             parts.push((shown.image(), rest));
         }
