@@ -288,6 +288,7 @@ impl<'a> Pair<'a> {
             let new = || Light { image, name: name(), judge: zero, shown: zero, noise: zero, outline: zero, picture };
             change(found.entry(image).or_insert_with(new));
         };
+        let mut least: BTreeMap<Image, DVec3> = BTreeMap::new();
         for i in 0..self.judge.layers.len() {
             let layer = &self.judge.layers[i];
             let Some(pixel) = sampled.get(&i) else {
@@ -300,7 +301,11 @@ impl<'a> Pair<'a> {
                 continue;
             };
             for (image, part) in self.shown_parts(i, sampled) {
+                // What no ray has met may still be there: of one ray's light nothing is known.
+                let one = part / f64::from(self.frame.shown[i].coverage).max(1e-3) / f64::from(pixel.rounds * SIDE * SIDE);
                 of(image, &|light| light.shown += part);
+                let least = least.entry(image).or_default();
+                *least = one.max(*least);
             }
             for image in pixel.met.keys().copied() {
                 let by_centre = self.frame.shown[i].coverage == 1.0 || self.frame.shown[i].object == 0;
@@ -314,8 +319,9 @@ impl<'a> Pair<'a> {
                 });
             }
         }
-        for light in found.values_mut() {
-            (light.noise, light.outline) = (light.noise.map(f64::sqrt), light.outline.map(f64::sqrt));
+        for (image, light) in &mut found {
+            let least = least.get(image).copied().unwrap_or_default();
+            (light.noise, light.outline) = ((light.noise + least * least).map(f64::sqrt), light.outline.map(f64::sqrt));
         }
         found.into_values().collect()
     }
