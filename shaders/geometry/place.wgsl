@@ -209,7 +209,7 @@ const BESIDE: f32 = 4.0;
 const ROUNDING: f32 = 4e-7;
 const NARROW_RING_BELOW: f32 = 10.0;
 const THIN_STRICTNESS: f32 = 4.0;
-const THIN_RING: f32 = 2.0;
+const FLAT: f32 = 2.0;
 const THIN_RING_BELOW: f32 = 48.0;
 const LEAST_THIN_RING: f32 = 4.0;
 const MOST_THIN_RING: f32 = 16.0;
@@ -392,7 +392,7 @@ fn plane_crossings(camera_height: f32, height: f32, order: u32) -> u32 {
 
 /// Whether an image is so narrow that a ray a pixel may miss it.
 fn is_thin(body: HeldBody, extent: Extent) -> bool {
-    let wider = select(1.0, THIN_RING * body.flatness, is_drawn_out(extent));
+    let wider = select(1.0, body.flatness, is_drawn_out(extent) && body.flatness > FLAT);
     return extent.width < held_frame.thin_below * wider && held_frame.has_thin == 1u;
 }
 

@@ -219,7 +219,7 @@ pub fn place<'l>(list: &'l mut PlacedList, view: &InstanceView, time: f64, objec
 /// Whether an image is so narrow that a ray a pixel may miss it. A ring shows the body's sections across the axis, and is narrower at most
 /// azimuths than its ball.
 fn is_thin(extent: &Extent, flatness: f32, settings: &Settings) -> bool {
-    let wider = if extent.is_drawn_out() { THIN_RING * f64::from(flatness) } else { 1.0 };
+    let wider = if extent.is_drawn_out() && flatness > FLAT { f64::from(flatness) } else { 1.0 };
     extent.width < settings.thin_below * wider && settings.min_width > 0.0
 }
 
@@ -256,8 +256,8 @@ const NARROW_RING_BELOW: f64 = 10.0;
 /// Strictness of thin images. They lie along the edge of the shadow and are widened by half a pixel. So their chords are held this much
 /// closer, and sag and widening together stay under a pixel.
 const THIN_STRICTNESS: f64 = 4.0;
-/// The ring of a ball beside the axis grows narrower to both ends: it is thin below so many times the width.
-const THIN_RING: f64 = 2.0;
+/// Sections of a body that is less flat are about as wide as its ball.
+const FLAT: f32 = 2.0;
 /// Strictness of thin rings: chords of both sides bend towards the axis, each by its own, and take or give light by the part of the width that
 /// they sag. With 16 the light of a ship's ring a tenth of a pixel wide is right to 3 %, with 4 to 14 %. Wider ones need less.
 const THIN_RING_BELOW: f64 = 48.0;
