@@ -37,8 +37,8 @@ fn minimum() -> wgpu::Limits {
     wgpu::Limits::default()
 }
 
-/// Features that are used where the adapter has them: times and fragments of passes, tables sampled, aurora and thin images added up in 32-bit
-/// floats.
+/// Features that are used where the adapter has them: times and fragments of passes, tables sampled, aurora and thin images added up in
+/// 32-bit floats.
 pub(in crate::render) const OPTIONAL: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY
     .union(wgpu::Features::PIPELINE_STATISTICS_QUERY)
     .union(wgpu::Features::FLOAT32_FILTERABLE)
