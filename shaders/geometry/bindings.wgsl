@@ -45,9 +45,10 @@ fn model_edge(number: u32) -> vec4<u32> {
 }
 
 fn model_triangle(number: u32) -> ModelTriangle {
-    let corners = textureLoad(triangle_table, table_place(2u * number), 0);
-    let edges = textureLoad(triangle_table, table_place(2u * number + 1u), 0);
-    return ModelTriangle(corners.xyz, corners.w, edges.xyz, edges.w);
+    let corners = textureLoad(triangle_table, table_place(3u * number), 0);
+    let edges = textureLoad(triangle_table, table_place(3u * number + 1u), 0);
+    let seen_from = textureLoad(triangle_table, table_place(3u * number + 2u), 0);
+    return ModelTriangle(corners.xyz, corners.w, edges.xyz, edges.w, seen_from);
 }
 
 fn chunk_of(number: u32) -> Chunk {

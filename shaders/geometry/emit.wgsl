@@ -7,7 +7,7 @@
 #import lensrunner::geometry::clip::clip_position
 #import lensrunner::geometry::patch::{BLOCK, Facing, facing_of}
 #import lensrunner::gpu::bindings::frame
-#import lensrunner::gpu::types::{Capacity, Instance, is_thin, Piece, PIECE_FAN, PIECE_STRIP, PIECE_TRIANGLE, ThinVertex, WorkItem}
+#import lensrunner::gpu::types::{Capacity, Instance, is_thin, is_thin_ring, Piece, PIECE_FAN, PIECE_STRIP, PIECE_TRIANGLE, ThinVertex, WorkItem}
 #import lensrunner::instances::bounds::leaves_bounds
 #import lensrunner::instances::instance::{in_body_axes, instance_at}
 #import lensrunner::models::hiding::seen_part
@@ -63,13 +63,40 @@ fn share_across(instance: Instance, heights: vec3<f32>) -> f32 {
     return select(other_side, 1.0 - other_side, order % 2u == 0u);
 }
 
+/// How a point of an image lies round the axis: where it is seen, across the axis and in the rain frame; and how it moves on the screen as
+/// its azimuth grows, in pixels a radian.
+struct OnRing {
+    across: vec2<f32>,
+    tangent: vec2<f32>,
+}
+
+fn on_ring(apparent: vec3<f32>) -> OnRing {
+    let m = frame.camera_from_rain;
+    // The inverse of a Lorentz matrix is its transpose between two changes of the sign of time.
+    let rain = (transpose(m) * vec4<f32>(apparent, length(apparent))).xyz;
+    let moved = clip_position((m * vec4<f32>(cross(frame.outward, rain), 0.0)).xyz);
+    let clip = clip_position(apparent);
+    let tangent = (moved.xy - clip.xy * (moved.w / clip.w)) / clip.w * 0.5 * frame.size;
+    return OnRing(vec2<f32>(dot(rain, frame.side_a), dot(rain, frame.side_b)), tangent);
+}
+
+/// The area between the arc round the axis from one point to another and its chord, in square pixels; positive where the arc lies to the
+/// right of it. The sides of a ring are arcs, and their chords cut off or add more than a thin one covers. Of two triangles one loses what
+/// the other gains. R² (θ − sin θ)/2 of a circle to third order.
+fn bulge(start: OnRing, end: OnRing) -> f32 {
+    let a = start.across;
+    let b = end.across;
+    let turn = atan2(a.x * b.y - a.y * b.x, dot(a, b));
+    return turn * turn * (start.tangent.x * end.tangent.y - start.tangent.y * end.tangent.x) / 12.0;
+}
+
 /// Draws a triangle of a thin image with coverage; true if that was done, or if the triangle faces away. Only objects whose whole image is
 /// thin have such triangles: a sliver inside a wide image is covered by its neighbours and stays opaque. `seen_from` has the directions
 /// from which it is not hidden.
 ///
 /// A triangle narrower than the error of its corners (chords, f32) may be folded over: it covers what the next one covers again. So areas
 /// count with the sense in which the corners run, and over all triangles the double cover cancels.
-fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen_from: u32) -> bool {
+fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen_from: vec4<u32>) -> bool {
     if !is_thin(instance) || frame.least_width <= 0.0 {
         return false;
     }
@@ -109,7 +136,14 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
     // The share of the drawn area that it covers, times its share that no other part of the model hides.
     let part = seen_part(seen_from, in_body_axes(instance, facing.normal * towards_eye),
         in_body_axes(instance, leaving / max(length(leaving), 1e-20)));
-    let coverage = sense * part / (stretch.x * stretch.y);
+    var coverage = sense * part / (stretch.x * stretch.y);
+    if is_thin_ring(instance) {
+        let r0 = on_ring(seen[i0].apparent);
+        let r1 = on_ring(seen[i1].apparent);
+        let r2 = on_ring(seen[i2].apparent);
+        let bulges = bulge(r0, r1) + bulge(r1, r2) + bulge(r2, r0);
+        coverage *= 1.0 + 2.0 * bulges / (a.x * b.y - a.y * b.x);
+    }
     if coverage == 0.0 {
         return true;
     }
@@ -132,7 +166,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
 }
 
 /// Draws the triangle of three seen vertices.
-fn emit_triangle(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen_from: u32) {
+fn emit_triangle(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen_from: vec4<u32>) {
     if leaves_bounds(instance, i0, i1, i2) || emit_thin(i0, i1, i2, instance, facing, seen_from) {
         return;
     }

@@ -9,7 +9,7 @@
 #import lensrunner::geometry::project::{frequency_ratio, leaving_direction, ProjectedPoint, ProjectionInput, side_towards, Sight}
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::{
-    FLAG_MIDPOINT, Instance, INSTANCE_NARROW_RING, INSTANCE_STATIC, INSTANCE_THIN, is_thin, ModelTriangle, SeenVertex, SIDE_AGAINST,
+    FLAG_MIDPOINT, Instance, INSTANCE_NARROW_RING, INSTANCE_STATIC, INSTANCE_THIN, is_thin, is_thin_ring, ModelTriangle, SeenVertex, SIDE_AGAINST,
     SIDE_LONE, SIDE_OPEN, two_sided,
 }
 #import lensrunner::instances::instance::{normal_of, shaped}
@@ -218,7 +218,8 @@ const THIN_LIMB_STRICTNESS: f32 = 3.0;
 /// Factor for outlines relative to other edges of the same image.
 fn limb_strictness(instance: Instance) -> f32 {
     if is_thin(instance) {
-        return THIN_LIMB_STRICTNESS;
+        // Of a thin ring what chords cut off is added to the coverage (emit.wgsl).
+        return select(THIN_LIMB_STRICTNESS, 1.0, is_thin_ring(instance));
     }
     let outline = select(LIMB_STRICTNESS, NARROW_RING_LIMB_STRICTNESS, (instance.flags & INSTANCE_NARROW_RING) != 0u);
     return select(max(outline / narrow_strictness(instance), 1.0), 1.0, by_midpoint());
@@ -230,7 +231,8 @@ fn limb_strictness(instance: Instance) -> f32 {
 fn ring_strictness(instance: Instance, nearest: f32, pixel: f32, along: f32) -> f32 {
     let pixels_away = nearest / pixel;
     let closer = clamp(1.0 / max(pixels_away, 1e-6), 1.0, LIMB_STRICTNESS);
-    return select(1.0, max(closer / narrow_strictness(instance), 1.0), axis_matters(along, instance.order) && !by_midpoint());
+    let matters = axis_matters(along, instance.order) && !by_midpoint() && !is_thin_ring(instance);
+    return select(1.0, max(closer / narrow_strictness(instance), 1.0), matters);
 }
 
 /// If light leaves a triangle under a sine below this, it may be seen edge on somewhere.

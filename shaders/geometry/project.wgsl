@@ -108,6 +108,23 @@ const FARTHEST_BACK: f32 = 1e5;
 /// Before any time, and after all.
 const NEVER: f32 = 3e38;
 
+/// Whether a point's path less the centre's is told by gradients.
+fn has_gradient(instance: Instance) -> bool {
+    return instance.path_along != 0.0 || instance.path_across != 0.0;
+}
+
+/// How much longer the light's path from a point, `moved` from the instance's centre, is than from there, in r_s: by the trapezoid rule from the gradients at
+/// both, in the half-plane of the axis. The difference of both paths would have no more digits than the whole path leaves.
+fn longer_by(instance: Instance, point: ProjectedPoint, moved: vec3<f32>, side: vec3<f32>) -> f32 {
+    let centre = vec2<f32>(instance.across_a, instance.across_b);
+    let beside = vec2<f32>(dot(moved, frame.side_a), dot(moved, frame.side_b));
+    // The difference of two distances from the axis has fewer digits than that of their squares.
+    let outward = dot(beside, point.by_axis.xy + centre) / max(length(point.by_axis.xy) + length(centre), 1e-30);
+    let along = dot(moved, frame.outward);
+    let gradient = -point.ray.leaving.xyz / point.ray.energy;
+    return 0.5 * (along * (dot(gradient, frame.outward) + instance.path_along) + outward * (dot(gradient, side) + instance.path_across));
+}
+
 /// Projects a point: the ray from it to the camera. For a body point it solves s + Δ(x(s)) = T − T₀. The left side increases
 /// strictly with s for light of E > 0 and decreases for E < 0, since no emitter outruns light. So there is one solution, between times that
 /// are too early and too late; Newton's steps are kept between them. The lookup is called from one place here, and a pass should call this
@@ -128,12 +145,14 @@ fn project_point(instance: Instance, input: ProjectionInput, order: u32) -> Proj
         var height = input.height;
         var side = input.side;
         var velocity = vec3<f32>(0.0);
+        var moved_by = vec3<f32>(0.0);
         if input.fixed {
             result.by_axis = vec3<f32>(dot(side, frame.side_a) * across, dot(side, frame.side_b) * across, along);
             result.position = frame.outward * height + side * across;
         } else {
             let moved = local_motion_at(instance, input.body, s);
             velocity = moved.velocity;
+            moved_by = moved.offset;
             result.attitude = moved.attitude;
             result.position = instance.position + moved.offset;
             let beside = vec2<f32>(instance.across_a, instance.across_b)
@@ -159,7 +178,7 @@ fn project_point(instance: Instance, input: ProjectionInput, order: u32) -> Proj
             s = select(s, early, i + 1u == steps && early > -NEVER);
             continue;
         }
-        let missing = elapsed - result.ray.delay;
+        let missing = select(elapsed - result.ray.delay, -s - longer_by(instance, result, moved_by, side), has_gradient(instance));
         let speed = length(velocity);
         // The search ends when the image moves by less than a fiftieth of a pixel in the missing time. Round the axis it moves as the
         // azimuth turns.

@@ -142,8 +142,8 @@ struct Instance {
     rounding: f32,
     /// d/dT of it.
     force: vec3<f32>,
-    /// 1 if the centre strays from its smooth way, as the nodes tell, else 0.
-    strays: f32,
+    /// The gradient of the light's path at the centre: its part across the axis.
+    path_across: f32,
     /// Mean angular velocity about T₀ in 1/T, rain axes.
     spin: vec3<f32>,
     /// By how much the direction of light against a surface, as a sine, may be off what this turn tells.
@@ -166,7 +166,8 @@ struct Instance {
     /// Where the first node is in the table of instances.
     node_texel: u32,
     turn_z: vec3<f32>,
-    unused: f32,
+    /// The gradient's part along the axis. Both are 0 where a point's path less the centre's is not told by gradients.
+    path_along: f32,
     /// Light that falls on a surface of normal n (rain axes), per channel: the linear form of (n, 1), whose last coefficient is ambient.
     light_red: vec4<f32>,
     light_green: vec4<f32>,
@@ -211,13 +212,19 @@ const INSTANCE_STATIC: u32 = 2u;
 const INSTANCE_THIN: u32 = 4u;
 /// The image of a static body inside the horizon by light of E < 0.
 const INSTANCE_MINUS: u32 = 8u;
+/// The centre strays from its smooth way, as the nodes tell.
+const INSTANCE_STRAYS: u32 = 64u;
 /// The player's own ship, lit for the picture (`render.fill_least`).
 const INSTANCE_OWN: u32 = 32u;
-/// Its image, of a higher order, is a few pixels wide and drawn out along the ring: much of it is outline.
+/// Its image, of a higher order or thin, is at most a few pixels wide and drawn out along the ring: much of it is outline.
 const INSTANCE_NARROW_RING: u32 = 16u;
 
 fn is_thin(instance: Instance) -> bool {
     return (instance.flags & INSTANCE_THIN) != 0u;
+}
+
+fn is_thin_ring(instance: Instance) -> bool {
+    return is_thin(instance) && (instance.flags & INSTANCE_NARROW_RING) != 0u;
 }
 
 fn two_sided(instance: Instance) -> bool {
@@ -247,8 +254,9 @@ struct ModelTriangle {
     side: u32,
     /// Edge i is opposite to vertex i.
     edges: vec3<u32>,
-    /// A bit for each direction from which no other part of the model hides it (models/hiding.wgsl).
-    seen_from: u32,
+    unused: u32,
+    /// A bit for each direction from which the rest of the model does not hide it (models/hiding.wgsl).
+    seen_from: vec4<u32>,
 }
 
 /// Which side of a triangle is outside: none (a part of an open sheet), that to which the cross product of its sides 0–1 and 0–2 points, or

@@ -4,7 +4,7 @@
 // from nodes of what was recorded. They lie behind the instances in their table, three texels each: the attitude; what to add to the smooth
 // way (xyz); what to add to the smooth momentum (xyz).
 
-#import lensrunner::gpu::types::Instance
+#import lensrunner::gpu::types::{Instance, INSTANCE_STRAYS}
 #import lensrunner::instances::instance::{instance_row, shaped}
 #import lensrunner::instances::local_motion::{carried, MovedPoint, turned_by}
 
@@ -57,7 +57,7 @@ fn local_motion_at(instance: Instance, body: vec3<f32>, s: f32) -> MovedPoint {
     var asides = mat2x3<f32>();
     var pushes = mat2x3<f32>();
     // Most bodies keep to the smooth way.
-    if instance.strays != 0.0 {
+    if (instance.flags & INSTANCE_STRAYS) != 0u {
         asides = mat2x3<f32>(instance_row(first + 1u).xyz, instance_row(first + NODE_TEXELS + 1u).xyz);
         pushes = mat2x3<f32>(instance_row(first + 2u).xyz, instance_row(first + NODE_TEXELS + 2u).xyz);
     }

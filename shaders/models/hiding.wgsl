@@ -2,46 +2,39 @@
 
 // The share of a triangle that other parts of its model do not hide: the twin of src/render/models/hiding.rs.
 
-/// a : b of the rectangles whose corners are those of an icosahedron and, together with those of a cube, of a dodecahedron, of unit length.
-const GOLDEN_SHORT: f32 = 0.5257311;
-const GOLDEN_LONG: f32 = 0.8506508;
-const CUBE: f32 = 0.57735026;
-const DODECA_SHORT: f32 = 0.35682209;
-const DODECA_LONG: f32 = 0.93417236;
+/// Nodes along each side of the map of directions: a sphere's octahedron, unfolded onto a square.
+const NODES: u32 = 11u;
 
-/// Directions from which a triangle may be hidden.
-const DIRECTIONS: u32 = 32u;
-
-/// Direction k of `DIRECTIONS`, evenly over the sphere: the corners of a cube, then of rectangles across each pair of axes.
-fn direction_of(k: u32) -> vec3<f32> {
-    let sign = vec3<f32>(select(1.0, -1.0, (k & 1u) != 0u), select(1.0, -1.0, (k & 2u) != 0u), select(1.0, -1.0, (k & 4u) != 0u));
-    if k < 8u {
-        return CUBE * sign;
-    }
-    let icosahedron = k < 20u;
-    let short = select(DODECA_SHORT, GOLDEN_SHORT, icosahedron) * sign.x;
-    let long = select(DODECA_LONG, GOLDEN_LONG, icosahedron) * sign.y;
-    let axis = (k - 8u) / 4u % 3u;
-    if axis == 0u {
-        return select(vec3<f32>(short, 0.0, long), vec3<f32>(0.0, short, long), icosahedron);
-    } else if axis == 1u {
-        return select(vec3<f32>(0.0, long, short), vec3<f32>(short, long, 0.0), icosahedron);
-    }
-    return select(vec3<f32>(long, short, 0.0), vec3<f32>(long, 0.0, short), icosahedron);
+/// The lower half of the octahedron lies outside of the upper one, folded over its edges.
+fn folded(p: vec2<f32>) -> vec2<f32> {
+    return (1.0 - abs(p.yx)) * select(vec2<f32>(1.0), vec2<f32>(-1.0), p < vec2<f32>(0.0));
 }
 
-/// The share of a triangle that is seen from `direction` (unit, body axes): the mean of the bits of `seen_from`, one per direction,
-/// weighted by (cos angle)⁸, over all directions from which the triangle shows its outer side, whose normal is `outward`.
-fn seen_part(seen_from: u32, outward: vec3<f32>, direction: vec3<f32>) -> f32 {
+/// The direction of a node, of unit length.
+fn direction_of(node: vec2<u32>) -> vec3<f32> {
+    let p = vec2<f32>(node) / f32(NODES - 1u) * 2.0 - 1.0;
+    let z = 1.0 - abs(p.x) - abs(p.y);
+    return normalize(vec3<f32>(select(p, folded(p), z < 0.0), z));
+}
+
+/// The share of a triangle that is seen from `direction` (unit, body axes): bilinear between the nodes around it, of which `seen_from` has
+/// the bits, over those from which the triangle shows its outer side, whose normal is `outward`.
+fn seen_part(seen_from: vec4<u32>, outward: vec3<f32>, direction: vec3<f32>) -> f32 {
+    let on_octahedron = direction / (abs(direction.x) + abs(direction.y) + abs(direction.z));
+    let folded_out = select(on_octahedron.xy, folded(on_octahedron.xy), on_octahedron.z < 0.0);
+    let place = (0.5 * folded_out + 0.5) * f32(NODES - 1u);
+    let low = min(vec2<u32>(place), vec2<u32>(NODES - 2u));
+    let share = place - vec2<f32>(low);
     var sum = 0.0;
     var all = 0.0;
-    for (var k = 0u; k < DIRECTIONS; k++) {
-        let from_there = direction_of(k);
-        let c = max(dot(direction, from_there), 0.0);
-        let squared = c * c;
-        let weight = select(squared * squared * squared * squared, 0.0, dot(outward, from_there) < 0.0);
+    for (var corner = 0u; corner < 4u; corner++) {
+        let high = vec2<u32>(corner % 2u, corner / 2u);
+        let node = low + high;
+        let weights = select(1.0 - share, share, high == vec2<u32>(1u));
+        let weight = select(weights.x * weights.y, 0.0, dot(outward, direction_of(node)) < 0.0);
+        let k = node.y * NODES + node.x;
         all += weight;
-        sum += select(0.0, weight, (seen_from & (1u << k)) != 0u);
+        sum += select(0.0, weight, (seen_from[k / 32u] & (1u << (k % 32u))) != 0u);
     }
     return select(sum / all, 1.0, all < 1e-6);
 }

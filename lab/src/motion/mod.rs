@@ -15,6 +15,7 @@ use crate::compare::flight::hands::PACES;
 use crate::plot::{Axis, Figure, Guide, Panel, Point, Scatter};
 use lensrunner::argument::whole;
 use lensrunner::render::gpu::types::Instance;
+use lensrunner::render::gpu::types::placed::STRAYS;
 use lensrunner::render::instances::local_motion::{ImageExtent, LocalMotion, local_motion_at};
 use lensrunner::scene::mission::Difficulty;
 use lensrunner::scene::pilot_kind::PilotKind;
@@ -141,7 +142,7 @@ fn instance_of(history: &History, emission: f64, local_motion: &LocalMotion) -> 
         snap: numbers(local_motion.snap),
         contraction: numbers(now.momentum),
         force: numbers(local_motion.force),
-        strays: f32::from(u8::from(local_motion.strays)),
+        flags: if local_motion.strays { STRAYS } else { 0 },
         first_node,
         nodes_per_time: step.recip(),
         node_intervals: (local_motion.nodes.len() - 1) as f32,

@@ -130,7 +130,7 @@ impl PolygonPass {
             flags: STATIC_TWO_SIDED,
             ..Instance::default()
         };
-        place_by_axis(&mut unplaced, &input.camera, height * DVec3::Z, self.extent[1] + elapsed);
+        place_by_axis(&mut unplaced, &input.camera, height * DVec3::Z, self.extent[1] + elapsed, false);
         let mut placed = Vec::new();
         let mut turning = Vec::new();
         for order in 1..=input.settings.orders.min(input.settings.method.orders).min(3) {

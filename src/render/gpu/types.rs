@@ -109,7 +109,7 @@ pub struct Instance {
     pub contraction: [f32; 3],
     pub rounding: f32,
     pub force: [f32; 3],
-    pub strays: f32,
+    pub path_across: f32,
     pub spin: [f32; 3],
     pub spin_slack: f32,
     pub shape_x: [f32; 3],
@@ -123,7 +123,7 @@ pub struct Instance {
     pub turn_y: [f32; 3],
     pub node_texel: u32,
     pub turn_z: [f32; 3],
-    pub unused: f32,
+    pub path_along: f32,
     pub light: [[f32; 4]; 3],
     pub bounds: [Cap; 3],
     pub order: u32,
@@ -161,6 +161,8 @@ impl Instance {
 
 /// Bits of `Instance::flags`, the `INSTANCE_*` of WGSL.
 pub mod placed {
+    /// The centre strays from its smooth way.
+    pub const STRAYS: u32 = 64;
     /// Both sides of every triangle are drawn.
     pub const TWO_SIDED: u32 = 1;
     /// Static: held in place.
@@ -252,7 +254,8 @@ pub struct ModelTriangle {
     pub vertices: [u32; 3],
     pub side: u32,
     pub edges: [u32; 3],
-    pub seen_from: u32,
+    pub unused: u32,
+    pub seen_from: [u32; 4],
 }
 
 /// Threads of a workgroup of the stages, and of a chunk; `@workgroup_size` in WGSL.

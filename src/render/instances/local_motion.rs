@@ -10,6 +10,7 @@ use crate::spacetime::matter::gamma;
 use crate::spacetime::metric::river_speed;
 
 use crate::render::gpu::types::Instance;
+use crate::render::gpu::types::placed::STRAYS as STRAYS_FLAG;
 
 /// A node as the GPU reads it: the attitude (x, y, z, w, body to rain axes); what to add to the smooth way, in r_s; what to add to the
 /// smooth momentum, in c.
@@ -211,7 +212,7 @@ pub fn local_motion_at(instance: &Instance, nodes: &[MotionNode], body: Vec3, s:
     let rest = q * (body * scale);
     let rate = change.truncate() * mean.w - mean.truncate() * change.w - change.truncate().cross(mean.truncate());
     let turning = (rate * (2.0 / mean.length_squared())).cross(rest) * (per_time * inside);
-    let strays = if instance.strays != 0.0 { 1.0 } else { 0.0 };
+    let strays = if instance.flags & STRAYS_FLAG != 0 { 1.0 } else { 0.0 };
     let mut moved = carried(instance, rest, turning, s, xyz(pushed_a).lerp(xyz(pushed_b), share) * strays);
     if strays > 0.0 {
         let [a, b] = [aside_a, aside_b].map(xyz);

@@ -14,13 +14,14 @@ pub use view::InstanceView;
 
 use crate::lensing::lookup::OLD;
 use crate::render::gpu::types::Instance;
-use crate::render::gpu::types::placed::{MINUS, NARROW_RING, STATIC, THIN, TWO_SIDED};
+use crate::render::gpu::types::placed::{MINUS, NARROW_RING, STATIC, STRAYS, THIN, TWO_SIDED};
 use crate::render::instances::local_motion::{ImageExtent, LocalMotion, MOST_NODES, MotionNode};
 use crate::render::instances::view::{Extent, MARGIN};
 use crate::render::models::ModelRange;
 use crate::render::settings::Settings;
 pub use crate::scene::lighting::Illumination;
 use crate::sim::History;
+use crate::sim::sight::light_path;
 use crate::spacetime::Observer;
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::{Branch, Order};
@@ -179,7 +180,9 @@ pub fn place<'l>(list: &'l mut PlacedList, view: &InstanceView, time: f64, objec
             (ObjectMotion::Flying(_), None) => return None,
         };
         (instance.order, instance.object) = (u32::from(order.number()), object.id);
-        place_by_axis(&mut instance, camera, position, object.reach);
+        let gradient = seen.as_ref().and_then(|seen| path_gradient(view, seen, object.reach, order));
+        place_by_axis(&mut instance, camera, position, object.reach, gradient.is_some());
+        [instance.path_along, instance.path_across] = gradient.unwrap_or_default();
         // All points of the object, each where its light leaves, are within this distance of its centre.
         let whole = position.z.abs() > MARGIN * object.reach;
         instance.crossings = if whole { plane_crossings(camera.position.z, position.z, order) as f32 } else { -1.0 };
@@ -227,9 +230,8 @@ fn is_thin(extent: &Extent, flatness: f32, settings: &Settings) -> bool {
 fn set_strictness(instance: &mut Instance, view: &InstanceView, extent: &Extent, flatness: f32, order: Order) {
     let width = extent.width;
     if is_thin(extent, flatness, view.settings) {
-        let of_ring = (THIN_RING_BELOW / width).clamp(LEAST_THIN_RING, MOST_THIN_RING);
-        instance.flags |= THIN;
-        instance.strictness = if extent.is_drawn_out() { of_ring } else { THIN_STRICTNESS } as f32;
+        instance.flags |= THIN | if extent.is_drawn_out() { NARROW_RING } else { 0 };
+        instance.strictness = THIN_STRICTNESS as f32;
     } else {
         instance.flags |= if width < NARROW_RING_BELOW && order.number() > 1 { NARROW_RING } else { 0 };
         instance.strictness = (NARROW_IMAGE_BELOW / width).clamp(1.0, MOST_NARROW_STRICTNESS) as f32;
@@ -258,11 +260,6 @@ const NARROW_RING_BELOW: f64 = 10.0;
 const THIN_STRICTNESS: f64 = 4.0;
 /// Sections of a body that is less flat are about as wide as its ball.
 const FLAT: f32 = 2.0;
-/// Strictness of thin rings: chords of both sides bend towards the axis, each by its own, and take or give light by the part of the width that
-/// they sag. With 16 the light of a ship's ring a tenth of a pixel wide is right to 3 %, with 4 to 14 %. Wider ones need less.
-const THIN_RING_BELOW: f64 = 48.0;
-const LEAST_THIN_RING: f64 = 4.0;
-const MOST_THIN_RING: f64 = 16.0;
 /// Images narrower than this, in pixels, are narrow ones. The narrower they are, the closer their chords are held, since all of them are
 /// near an outline. The width is the largest; a ring is a tenth as wide elsewhere.
 const NARROW_IMAGE_BELOW: f64 = 16.0;
@@ -298,16 +295,51 @@ const BESIDE: f64 = 4.0;
 /// roundings of 2⁻²⁴ each.
 const ROUNDING: f64 = 4e-7;
 
-/// Where an instance at `position` is across the axis of hole and camera, and by how much rounding may move a point of the object.
-pub(super) fn place_by_axis(instance: &mut Instance, camera: &Observer, position: DVec3, reach: f64) {
+/// The direction in which an object is drawn beside its position, by the two axes across that of hole and camera: nobody chooses it.
+const BESIDE_WAY: [f64; 2] = [0.79, 0.61];
+
+/// Where an instance at `position` is across the axis of hole and camera, and by how much rounding may move a point of the object. If
+/// its points' paths are told by gradients, their emission times are as precise as their positions.
+pub(super) fn place_by_axis(instance: &mut Instance, camera: &Observer, position: DVec3, reach: f64, by_gradients: bool) {
     let [_, a, b] = camera.axis_frame();
     let speed = if instance.scale == 0.0 { 0.0 } else { DVec3::from_array(instance.velocity.map(f64::from)).length() };
-    let rounding = ROUNDING * (reach + speed * f64::from(instance.delay).abs());
+    let rounding = ROUNDING * (reach + speed * if by_gradients { reach } else { f64::from(instance.delay).abs() });
     let aside = BESIDE * rounding;
-    // In a direction that nobody chooses.
-    (instance.across_a, instance.across_b) = ((position.dot(a) + 0.79 * aside) as f32, (position.dot(b) + 0.61 * aside) as f32);
+    let [across_a, across_b] = BESIDE_WAY;
+    (instance.across_a, instance.across_b) = ((position.dot(a) + across_a * aside) as f32, (position.dot(b) + across_b * aside) as f32);
     (instance.rounding, instance.strictness) = (rounding as f32, 1.0);
 }
+
+/// The gradient of the path of the light by which a body's centre is seen, along and across the axis of hole and camera, if by it the paths
+/// from the body's points are told better than their rounding. None: they are not.
+fn path_gradient(view: &InstanceView, seen: &Departure, reach: f64, order: Order) -> Option<[f32; 2]> {
+    let camera = view.camera;
+    let method = view.settings.method;
+    if !(method.bends && method.is_exact && view.settings.light_delay) || camera.radius() <= 1.0 {
+        return None;
+    }
+    let position = seen.sample.position;
+    let (path, mut gradient) = seen.path?;
+    let curved = path.min(position.length() - 1.0) - reach;
+    if curved < reach || reach.powi(3) / (TRAPEZOID * curved * curved) > ROUNDING * path {
+        return None;
+    }
+    let [n, a, b] = camera.axis_frame();
+    let mut beside = position - n * position.dot(n);
+    if beside.length() < ON_AXIS * reach {
+        // There the side towards a point is that on which it is drawn.
+        let [across_a, across_b] = BESIDE_WAY;
+        beside = (a * across_a + b * across_b) * (ON_AXIS * reach);
+        gradient = light_path(camera, n * position.dot(n) + beside, order, Branch::Plus)?.1;
+    }
+    Some([gradient.dot(n) as f32, gradient.dot(beside.normalize()) as f32])
+}
+
+/// The trapezoid rule from gradients at both ends of a way h errs by h³/12 times the third derivative of the path, which is about 1 over the
+/// square of the distance from the hole and from the camera.
+const TRAPEZOID: f64 = 12.0;
+/// Nearer to the axis than this share of its reach a body's centre is on it, for the side towards it.
+const ON_AXIS: f64 = 1e-6;
 
 fn static_instance(camera: &Observer, position: DVec3, attitude: DQuat, object: &DrawnObject) -> Instance {
     let turn = DMat3::from_quat(attitude);
@@ -410,12 +442,12 @@ fn flying(
         jerk: numbers(local_motion.jerk),
         snap: numbers(local_motion.snap),
         force: numbers(local_motion.force),
-        strays: f32::from(u8::from(local_motion.strays)),
         spin: numbers(local_motion.spin),
         spin_slack: local_motion.slack as f32,
         first_node,
         nodes_per_time: step.recip(),
         node_intervals: (local_motion.nodes.len() - 1) as f32,
+        flags: if local_motion.strays { STRAYS } else { 0 },
         ..instance
     };
     (instance, Some(local_motion), out.longer)
@@ -424,7 +456,9 @@ fn flying(
 /// Leaves of an instance's motion what has numbers for sure.
 fn straight_on(instance: &mut Instance) {
     (instance.acceleration, instance.jerk, instance.snap, instance.force) = Default::default();
-    (instance.spin, instance.spin_slack, instance.strays, instance.bounds) = Default::default();
+    (instance.spin, instance.spin_slack, instance.bounds) = Default::default();
+    (instance.path_along, instance.path_across) = Default::default();
+    instance.flags &= !STRAYS;
     (instance.first_node, instance.nodes_per_time, instance.node_intervals) = (0.0, 1.0, 1.0);
 }
 

@@ -1,17 +1,22 @@
-//! Which triangles other parts of a model hide, seen from 32 directions around it.
+//! How much of each triangle the rest of its model hides, seen from directions all around.
 //!
 //! A thin image has no depth: its brightness is the sum of the areas of its triangles. Triangles inside or behind another part would count
 //! too. So for each triangle it is known from which directions the rest of its model does not hide it, by a depth map for each direction.
 
 use std::sync::{Mutex, PoisonError};
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::{BVec4A, Vec2, Vec3, Vec4};
 use rayon::prelude::*;
 
 use crate::scene::model::Model;
 
-/// Directions, a bit for each.
-pub const DIRECTIONS: u32 = 32;
+/// Nodes along each side of the map of directions: a sphere's octahedron, unfolded onto a square (Cigolle et al. 2014, "A survey of efficient
+/// representations for independent unit vectors").
+pub const NODES: u32 = 11;
+/// Directions: the nodes of the map, a bit for each. They are 9° to 18° apart.
+pub const DIRECTIONS: u32 = NODES * NODES;
+/// Bits of a triangle, a bit for each direction.
+pub type SeenFrom = [u32; 4];
 /// The fewest and the most cells along each side of a depth map.
 const SIDES: [usize; 2] = [32, 256];
 /// Cells of a map for each triangle of the model, up to the largest map: the triangles that are seen are a few cells wide.
@@ -19,8 +24,8 @@ const CELLS: f64 = 16.0;
 /// The most cells that the triangles of a model cover together; of one with more, the map is coarser. Half a million triangles that all
 /// cover the whole map would take minutes.
 const MOST_CELLS: f64 = 16_777_216.0;
-/// Four points of a triangle that are tested: for each of its corners the weights by which they are made. They are the middles of its
-/// quarters. It counts as seen if two of them are.
+/// Four points of a triangle that are tested where it covers no middle of a cell: for each of its corners the weights by which they are
+/// made. They are the middles of its quarters.
 const POINTS: [Vec4; 3] = [
     Vec4::new(1.0 / 3.0, 2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0),
     Vec4::new(1.0 / 3.0, 1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0),
@@ -28,39 +33,41 @@ const POINTS: [Vec4; 3] = [
 ];
 /// Cells after each row of a depth map: four are written at once.
 const SPARE: usize = 3;
+/// Steps of the thresholds from direction to direction and from triangle to triangle: powers of the root of x³ = x + 1, which fill a square
+/// evenly.
+const THRESHOLD_STEPS: [f32; 2] = [0.754_877_7, 0.569_840_3];
 
-/// Direction `k` of [`DIRECTIONS`] (unit): the corners of an icosahedron and of the dodecahedron between; the twin of `direction_of` in
-/// `shaders/models/hiding.wgsl`.
+/// Direction `k` of [`DIRECTIONS`] (unit); the twin of `direction_of` in `shaders/models/hiding.wgsl`.
 pub fn direction_of(k: u32) -> Vec3 {
-    let sign = |bit: u32| if k & bit != 0 { -1.0 } else { 1.0 };
-    if k < 8 {
-        return Vec3::new(sign(1), sign(2), sign(4)) / 3f32.sqrt();
-    }
-    let golden = 0.5 * (1.0 + 5f32.sqrt());
-    let icosahedron = k < 20;
-    let long = if icosahedron { golden } else { golden * golden };
-    let [short, long] = (Vec2::new(1.0, long).normalize() * Vec2::new(sign(1), sign(2))).to_array();
-    match ((k - 8) / 4 % 3, icosahedron) {
-        (0, true) => Vec3::new(0.0, short, long),
-        (1, true) => Vec3::new(short, long, 0.0),
-        (_, true) => Vec3::new(long, 0.0, short),
-        (0, false) => Vec3::new(short, 0.0, long),
-        (1, false) => Vec3::new(0.0, long, short),
-        (_, false) => Vec3::new(long, short, 0.0),
-    }
+    let [x, y] = [k % NODES, k / NODES].map(|node| node as f32 / (NODES - 1) as f32 * 2.0 - 1.0);
+    let z = 1.0 - x.abs() - y.abs();
+    let [x, y] = if z < 0.0 { folded([x, y]) } else { [x, y] };
+    Vec3::new(x, y, z).normalize()
 }
 
-/// For each triangle of the model, in its order, a bit for each direction from which it is seen.
-pub fn seen_from(model: &Model) -> Vec<u32> {
+/// The lower half of the octahedron lies outside of the upper one, folded over its edges.
+fn folded([x, y]: [f32; 2]) -> [f32; 2] {
+    [(1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y)]
+}
+
+/// For each triangle of the model, in its order, a bit for each direction: it is set in as large a share of the directions around as the
+/// share of the triangle that is seen from there.
+pub fn seen_from(model: &Model) -> Vec<SeenFrom> {
     let corners: Vec<[Vec3; 3]> =
         model.triangles.iter().map(|triangle| triangle.map(|vertex| Vec3::from(model.vertices[vertex as usize].position))).collect();
     let lock = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, known)) = lock().iter().find(|(other, _)| *other == corners) {
         return known.clone();
     }
-    let seen: Vec<Vec<bool>> =
+    let seen: Vec<Vec<f32>> =
         (0..DIRECTIONS).into_par_iter().map_init(Vec::new, |depths, k| seen_in(&corners, direction_of(k), depths)).collect();
-    let found: Vec<u32> = (0..corners.len()).map(|i| (0..DIRECTIONS).map(|k| u32::from(seen[k as usize][i]) << k).sum()).collect();
+    let mut found = vec![SeenFrom::default(); corners.len()];
+    for (k, shares) in seen.iter().enumerate() {
+        for (i, (share, bits)) in shares.iter().zip(&mut found).enumerate() {
+            let threshold = (k as f32 * THRESHOLD_STEPS[0] + (i % 4096) as f32 * THRESHOLD_STEPS[1]).fract();
+            bits[k / 32] |= u32::from(*share > threshold) << (k % 32);
+        }
+    }
     let mut known = lock();
     known.truncate(MOST_KNOWN - 1);
     known.insert(0, (corners, found.clone()));
@@ -73,25 +80,32 @@ static KNOWN: Mutex<Vec<Known>> = Mutex::new(Vec::new());
 const MOST_KNOWN: usize = 32;
 
 /// A model's corners, and for each triangle a bit for each direction.
-type Known = (Vec<[Vec3; 3]>, Vec<u32>);
+type Known = (Vec<[Vec3; 3]>, Vec<SeenFrom>);
 
 /// The part of a triangle that is seen from `direction`: the twin of `seen_part` in `shaders/models/hiding.wgsl`.
-pub fn seen_part(seen_from: u32, outward: Vec3, direction: Vec3) -> f32 {
+pub fn seen_part(seen_from: SeenFrom, outward: Vec3, direction: Vec3) -> f32 {
+    let on_octahedron = direction / (direction.x.abs() + direction.y.abs() + direction.z.abs());
+    let place = [on_octahedron.x, on_octahedron.y];
+    let place = if on_octahedron.z < 0.0 { folded(place) } else { place };
+    let [x, y] = place.map(|x| (0.5 * x + 0.5) * (NODES - 1) as f32);
+    let [left, low] = [x, y].map(|x| (x as u32).min(NODES - 2));
+    let (right_share, high_share) = (x - left as f32, y - low as f32);
     let (mut sum, mut all) = (0.0, 0.0);
-    for k in 0..DIRECTIONS {
-        let there = direction_of(k);
-        if outward.dot(there) < 0.0 {
+    for corner in 0..4 {
+        let (right, high) = (corner % 2, corner / 2);
+        let k = (low + high) * NODES + left + right;
+        let weight = (if right == 1 { right_share } else { 1.0 - right_share }) * (if high == 1 { high_share } else { 1.0 - high_share });
+        if outward.dot(direction_of(k)) < 0.0 {
             continue;
         }
-        let weight = direction.dot(there).max(0.0).powi(8);
         all += weight;
-        sum += if seen_from & (1 << k) != 0 { weight } else { 0.0 };
+        sum += if seen_from[k as usize / 32] & (1 << (k % 32)) != 0 { weight } else { 0.0 };
     }
     if all < 1e-6 { 1.0 } else { sum / all }
 }
 
-/// Whether each triangle is seen from `direction`, far away; `depths` is room for a depth map.
-fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3, depths: &mut Vec<f32>) -> Vec<bool> {
+/// The share of each triangle that is seen from `direction`, far away; `depths` is room for a depth map.
+fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3, depths: &mut Vec<f32>) -> Vec<f32> {
     let (right, up) = direction.any_orthonormal_pair();
     // On the map x and y, and z towards the eye.
     let turned: Vec<[Vec3; 3]> =
@@ -102,14 +116,32 @@ fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3, depths: &mut Vec<f32>) -> V
     let side = side_of(&turned, width);
     let cell = width / side as f32;
     let place = |p: Vec3| (p - low).truncate() / cell;
-    depth_map(&turned, side, place, depths);
+    depths.clear();
+    depths.resize((side + SPARE) * side, f32::NEG_INFINITY);
+    for corners in &turned {
+        cells_of(corners, side, place, |first, inside, depth| {
+            let cells = &mut depths[first..][..4];
+            let here = Vec4::from_slice(cells);
+            Vec4::select(inside & depth.cmpgt(here), depth, here).write_to_slice(cells);
+        });
+    }
+    let slack_of_all = 1e-4 * (high - low).max_element();
     turned
         .iter()
         .map(|corners| {
+            let (mut covers, mut shows) = (0, 0);
+            cells_of(corners, side, place, |first, inside, depth| {
+                let seen = inside & (depth + slack_of_all).cmpge(Vec4::from_slice(&depths[first..][..4]));
+                covers += inside.bitmask().count_ones();
+                shows += seen.bitmask().count_ones();
+            });
+            if covers > 0 {
+                return shows as f32 / covers as f32;
+            }
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
             // The map has the depth at the middle of a cell: on a plane this much nearer at most, and rounding.
             let slope = normal.truncate().length() / normal.z.abs().max(0.05);
-            let slack = 1.5 * slope * cell + 1e-4 * (high - low).max_element();
+            let slack = 1.5 * slope * cell + slack_of_all;
             let [x, y, z] =
                 [0, 1, 2].map(|axis| POINTS[0] * corners[0][axis] + POINTS[1] * corners[1][axis] + POINTS[2] * corners[2][axis]);
             let [x, y] = [(x - low.x) / cell, (y - low.y) / cell].map(|place| place.to_array());
@@ -117,7 +149,7 @@ fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3, depths: &mut Vec<f32>) -> V
                 let [x, y] = [x[k], y[k]].map(|place| (place as usize).min(side - 1));
                 z[k] + slack >= depths[y * (side + SPARE) + x]
             });
-            seen.count() >= 2
+            seen.count() as f32 / 4.0
         })
         .collect()
 }
@@ -141,41 +173,33 @@ fn covered(triangles: &[[Vec3; 3]], cells_per_length: f32) -> f64 {
     triangles.iter().map(cells).sum()
 }
 
-/// The nearest depth at the middle of each cell, in rows with [`SPARE`] cells more; −∞ where there is nothing.
-fn depth_map(triangles: &[[Vec3; 3]], side: usize, place: impl Fn(Vec3) -> Vec2, depths: &mut Vec<f32>) {
+/// Goes through the cells whose middle a triangle covers, four at once: the number of the first in a map whose rows have [`SPARE`] cells
+/// more, which of them it covers, and its depths there.
+fn cells_of(corners: &[Vec3; 3], side: usize, place: impl Fn(Vec3) -> Vec2, mut each: impl FnMut(usize, BVec4A, Vec4)) {
     let row = side + SPARE;
-    depths.clear();
-    depths.resize(row * side, f32::NEG_INFINITY);
     // The first cell whose number is at least `x`.
     let first = |x: f32| {
         let whole = x.max(0.0) as usize;
         whole + usize::from((whole as f32) < x)
     };
-    for corners in triangles {
-        let [a, b, c] = corners.map(&place);
-        let area = (b - a).perp_dot(c - a);
-        if area == 0.0 {
-            continue;
-        }
-        let from = (a.min(b).min(c) - 0.5).to_array().map(first);
-        let to = (a.max(b).max(c) + 0.5).to_array().map(|x| first(x).min(side));
-        let turn = Vec4::splat(area.signum());
-        for y in from[1]..to[1] {
-            let [ay, by, cy] = [a, b, c].map(|corner| corner.y - (y as f32 + 0.5));
-            for x in (from[0]..to[0]).step_by(4) {
-                // Four cells.
-                let middle = Vec4::splat(x as f32) + Vec4::new(0.5, 1.5, 2.5, 3.5);
-                let [ax, bx, cx] = [a, b, c].map(|corner| Vec4::splat(corner.x) - middle);
-                let weights = [bx * cy - cx * by, cx * ay - ax * cy, ax * by - bx * ay];
-                let inside = weights
-                    .iter()
-                    .fold(middle.cmplt(Vec4::splat(to[0] as f32)), |inside, weight| inside & (*weight * turn).cmpge(Vec4::ZERO));
-                if inside.any() {
-                    let depth = (weights[0] * corners[0].z + weights[1] * corners[1].z + weights[2] * corners[2].z) / area;
-                    let cells = &mut depths[y * row + x..][..4];
-                    let here = Vec4::from_slice(cells);
-                    Vec4::select(inside & depth.cmpgt(here), depth, here).write_to_slice(cells);
-                }
+    let [a, b, c] = corners.map(&place);
+    let area = (b - a).perp_dot(c - a);
+    if area == 0.0 {
+        return;
+    }
+    let from = (a.min(b).min(c) - 0.5).to_array().map(first);
+    let to = (a.max(b).max(c) + 0.5).to_array().map(|x| first(x).min(side));
+    let turn = Vec4::splat(area.signum());
+    for y in from[1]..to[1] {
+        let [ay, by, cy] = [a, b, c].map(|corner| corner.y - (y as f32 + 0.5));
+        for x in (from[0]..to[0]).step_by(4) {
+            let middle = Vec4::splat(x as f32) + Vec4::new(0.5, 1.5, 2.5, 3.5);
+            let [ax, bx, cx] = [a, b, c].map(|corner| Vec4::splat(corner.x) - middle);
+            let weights = [bx * cy - cx * by, cx * ay - ax * cy, ax * by - bx * ay];
+            let inside =
+                weights.iter().fold(middle.cmplt(Vec4::splat(to[0] as f32)), |inside, weight| inside & (*weight * turn).cmpge(Vec4::ZERO));
+            if inside.any() {
+                each(y * row + x, inside, (weights[0] * corners[0].z + weights[1] * corners[1].z + weights[2] * corners[2].z) / area);
             }
         }
     }
@@ -229,7 +253,8 @@ mod tests {
             assert!((least..most).contains(&(counted / disc)), "from {direction}: {}", counted / disc);
         }
         let apart = (0..DIRECTIONS).flat_map(|k| (0..k).map(move |l| direction_of(k).angle_between(direction_of(l))));
-        assert!(apart.fold(f32::INFINITY, f32::min) > 0.6);
+        // The border of the map is folded: nodes there are one direction twice.
+        assert!(apart.filter(|angle| *angle > 1e-3).fold(f32::INFINITY, f32::min) > 0.15);
     }
 
     #[test]
@@ -239,7 +264,7 @@ mod tests {
         assert_eq!([side(1), side(200), side(2_000), side(100_000)], [32, 56, 89, 8]);
         assert!(covered(&vec![one; 100_000], side(100_000) as f32) <= MOST_CELLS);
         // None of them hides another.
-        assert!(seen_in(&vec![one; 100_000], Vec3::Z, &mut Vec::new()).iter().all(|seen| *seen));
+        assert!(seen_in(&vec![one; 100_000], Vec3::Z, &mut Vec::new()).iter().all(|seen| *seen == 1.0));
         let ball = shapes::icosphere(20_000, Material::default());
         let corners: Vec<[Vec3; 3]> =
             ball.triangles.iter().map(|triangle| triangle.map(|i| Vec3::from(ball.vertices[i as usize].position))).collect();

@@ -101,6 +101,7 @@ impl Prepared {
                 vertices: v,
                 side,
                 edges: [edge(v[1], v[2]), edge(v[0], v[2]), edge(v[0], v[1])],
+                unused: 0,
                 seen_from: seen,
             });
         }

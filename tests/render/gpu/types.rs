@@ -24,7 +24,7 @@ use lensrunner::render::gpu::types::{
 };
 use lensrunner::render::gpu::types::{flags, placed};
 use lensrunner::render::models::ALONE;
-use lensrunner::render::models::hiding::DIRECTIONS;
+use lensrunner::render::models::hiding::NODES;
 use lensrunner::render::models::outside;
 use lensrunner::render::post_process::flashes;
 use lensrunner::scene::disk::DISK_UNIT;
@@ -80,14 +80,14 @@ fn structs_have_one_layout_in_both_languages() {
         (
             "gpu::types::Instance",
             fields!(Instance: offset, delay, position, engines_off, velocity, scale, acceleration, across_a, jerk, across_b, snap, crossings,
-            momentum, gamma, contraction, rounding, force, strays, spin, spin_slack, shape_x, strictness, shape_y, first_node, shape_z,
-            nodes_per_time, turn_x, node_intervals, turn_y, node_texel, turn_z, unused, light ["light_red", "light_green", "light_blue"],
+            momentum, gamma, contraction, rounding, force, path_across, spin, spin_slack, shape_x, strictness, shape_y, first_node, shape_z,
+            nodes_per_time, turn_x, node_intervals, turn_y, node_texel, turn_z, path_along, light ["light_red", "light_green", "light_blue"],
             bounds ["bound_high", "bound_low", "bound_look"], order, object, first_seen, first_state, first_vertex, vertex_count, first_edge,
             edge_count, first_triangle, triangle_count, first_material, flags),
         ),
         ("gpu::types::Cap", fields!(Cap: middle, rim)),
         ("gpu::types::ModelVertex", fields!(ModelVertex: position, u, normal, v, material, unused ["unused_a", "unused_b", "unused_c"])),
-        ("gpu::types::ModelTriangle", fields!(ModelTriangle: vertices, side, edges, seen_from)),
+        ("gpu::types::ModelTriangle", fields!(ModelTriangle: vertices, side, edges, unused, seen_from)),
         ("gpu::types::Chunk", fields!(Chunk: instance, first)),
         (
             "gpu::types::SeenVertex",
@@ -220,6 +220,7 @@ fn constants_have_one_value_in_both_languages() {
         ("gpu::types::INSTANCE_MINUS", whole(placed::MINUS)),
         ("gpu::types::INSTANCE_NARROW_RING", whole(placed::NARROW_RING)),
         ("gpu::types::INSTANCE_OWN", whole(placed::OWN)),
+        ("gpu::types::INSTANCE_STRAYS", whole(placed::STRAYS)),
         ("gpu::types::STAR_ORDERS", whole(STAR_ORDERS)),
         ("instances::instance::INSTANCE_TEXELS", size_of::<Instance>() as f64 / 16.0),
         ("gpu::bindings::TABLE_ROW", TABLE_ROW as f64),
@@ -241,7 +242,7 @@ fn constants_have_one_value_in_both_languages() {
         ("aurora::levels::lit_tiles::LIT_TILE_ROWS", whole(LIT_TILES[1])),
         ("aurora::streaks::RED_EVERY", whole(RED_EVERY)),
         ("aurora::streaks::SMOOTH", f64::from(SMOOTH as f32)),
-        ("models::hiding::DIRECTIONS", whole(DIRECTIONS)),
+        ("models::hiding::NODES", whole(NODES)),
         ("aurora::stroke::CORNERS", whole(CORNERS)),
         ("aurora::levels::lit_corners::SHIFTS", SHIFTS as f64),
     ];

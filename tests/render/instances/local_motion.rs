@@ -170,7 +170,7 @@ fn the_local_motion_is_the_same_in_both_languages() {
         instance.first_node = random.random_range(-0.3..-0.2);
         instance.nodes_per_time = random.random_range(5.0..8.0);
         instance.node_intervals = (NODES - 1) as f32;
-        instance.strays = 1.0;
+        instance.flags |= lensrunner::render::gpu::types::placed::STRAYS;
         instance.snap = std::array::from_fn(|_| random.random_range(-2.0..2.0));
         let mut random_vector = |most: f32| Vec3::from_array(std::array::from_fn(|_| random.random_range(-most..most)));
         let nodes: Vec<MotionNode> = (0..NODES)

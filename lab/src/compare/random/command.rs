@@ -164,7 +164,7 @@ pub fn one(
 fn reduced(file: &CaseFile, fault: &Fault, config: &GameConfig, terms: &Terms, contestant: &DrawCase) -> Option<(CaseFile, Case, Judged)> {
     let deadline = Deadline::after(REDUCTION * terms.seconds);
     let path = Path::new("reduced.toml");
-    let is_fair = |case: &Case| place::is_fair(&case.scene, config, case.time);
+    let is_fair = |case: &Case| place::is_fair(&case.scene, config, case.time, false);
     let was_fair = file.case(path, config).is_ok_and(|case| is_fair(&case));
     let mut last = None;
     // A fault that is hardly one any more is another.

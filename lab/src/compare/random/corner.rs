@@ -15,11 +15,27 @@ pub enum Corner {
     Fast,
     /// Spheres of thousands of triangles on the axis.
     Small,
+    /// Several things on the axis, whose rings cross, or of which one hides its own second image.
+    Rings,
+    /// The camera within a ball.
+    Within,
+    /// A planet behind the hole, beyond the disk.
+    Planet,
 }
 
 impl Corner {
     /// All of them.
-    pub const ALL: [Corner; 6] = [Corner::Open, Corner::Axis, Corner::PhotonSphere, Corner::Horizon, Corner::Fast, Corner::Small];
+    pub const ALL: [Corner; 9] = [
+        Corner::Open,
+        Corner::Axis,
+        Corner::PhotonSphere,
+        Corner::Horizon,
+        Corner::Fast,
+        Corner::Small,
+        Corner::Rings,
+        Corner::Within,
+        Corner::Planet,
+    ];
 
     /// A word for tables.
     pub fn word(self) -> &'static str {
@@ -30,6 +46,9 @@ impl Corner {
             Corner::Horizon => "horizon",
             Corner::Fast => "fast",
             Corner::Small => "small-triangles",
+            Corner::Rings => "rings",
+            Corner::Within => "within",
+            Corner::Planet => "planet",
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Scenes that nobody chose: a case is drawn from a seed and its number alone, and is the text of a scene file.
 
 use super::corner::Corner;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::Path;
 
 use glam::DVec3;
@@ -12,6 +12,7 @@ use super::place;
 use super::text::{Text, rounded};
 use lensrunner::scene::model::SHIP_MODELS;
 use lensrunner::scene::{GameConfig, Scene};
+use lensrunner::spacetime::orbit::Elements;
 
 /// A case: a scene, when it is looked at, and how large the picture is.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +41,7 @@ pub fn draw(seed: u64, number: u64) -> Drawn {
         let drawn = attempt(&mut chance);
         let is_fair = |drawn: &Drawn| {
             let scene = Scene::from_toml(Path::new("drawn.toml"), &drawn.text);
-            scene.is_ok_and(|scene| place::is_fair(&scene, &config, drawn.at))
+            scene.is_ok_and(|scene| place::is_fair(&scene, &config, drawn.at, drawn.corner == Corner::Within))
         };
         if is_fair(&drawn) {
             return by_hands(&drawn, seed, number).filter(is_fair).unwrap_or(drawn);
@@ -81,16 +82,33 @@ fn attempt(chance: &mut StdRng) -> Drawn {
         }
         Corner::Fast => (0..1 + things.chance.random_range(0..2)).for_each(|_| things.ship()),
         Corner::Small => things.sphere(),
+        Corner::Rings => (0..2 + things.chance.random_range(0..2)).for_each(|_| things.any()),
+        Corner::Within => {
+            things.around();
+            if things.chance.random_bool(0.6) {
+                things.any();
+            }
+        }
+        Corner::Planet => {}
     }
     let target = things.first;
     let at = if camera > 4.0 && things.chance.random_bool(0.3) { rounded(things.chance.random_range(0.0..6.0)) } else { 0.0 };
-    if corner != Corner::Small && chance.random_bool(0.25) {
-        planet(chance, &mut text);
+    let behind = (corner == Corner::Planet).then_some((eye, at));
+    if behind.is_some() || (corner != Corner::Small && chance.random_bool(0.25)) {
+        planet(chance, &mut text, behind);
     }
-    if chance.random_bool(if corner == Corner::Small { 0.1 } else { 0.3 }) {
+    let with_disk = match corner {
+        Corner::Small => 0.1,
+        Corner::Planet => 0.8,
+        _ => 0.3,
+    };
+    if chance.random_bool(with_disk) {
         disk(chance, &mut text);
     }
-    let size = *place::pick(chance, &[[160, 90], [160, 90], [160, 90], [160, 90], [160, 90], [160, 90], [120, 120], [90, 160], [320, 180]]);
+    let size = *place::pick(
+        chance,
+        &[[160, 90], [160, 90], [160, 90], [160, 90], [160, 90], [160, 90], [120, 120], [90, 160], [256, 72], [72, 192], [320, 180]],
+    );
     let text = format!("{}{}[sky]\nstars = false\nmilky_way = false\n", camera_text(chance, eye, target), text.finish());
     Drawn { corner, text, at, size }
 }
@@ -106,9 +124,9 @@ fn camera_text(chance: &mut StdRng, eye: DVec3, target: Option<DVec3>) -> String
     }
     let mut fov: f64 = match chance.random_range(0..6) {
         0..3 => 60.0,
-        3 => chance.random_range(8.0..40.0),
+        3 => chance.random_range(5.0..40.0),
         4 => chance.random_range(40.0..100.0),
-        _ => chance.random_range(100.0..140.0),
+        _ => chance.random_range(100.0..150.0),
     };
     // Mostly to the hole, around which what is behind it is seen, or to where something there is is seen; the rest anywhere.
     let hole = place::seen(eye, momentum, DVec3::ZERO);
@@ -187,6 +205,16 @@ impl Things<'_> {
     fn sphere(&mut self) {
         let size = self.size(0.3..5.0);
         let position = place::thing(self.chance, self.corner, self.eye, size, true);
+        self.ball(position, size);
+    }
+
+    /// A ball that the camera is in.
+    fn around(&mut self) {
+        let (position, size) = place::ball_around(self.chance, self.eye);
+        self.ball(position, rounded(size));
+    }
+
+    fn ball(&mut self, position: DVec3, size: f64) {
         self.begin("[[prop]]", "ball", position);
         let model = *place::pick(self.chance, &["sphere", "icosphere"]);
         self.text.word("model", model);
@@ -236,13 +264,23 @@ impl Things<'_> {
     }
 }
 
-fn planet(chance: &mut StdRng, text: &mut Text) {
+/// A planet anywhere; or behind the hole, seen from a place at a time.
+fn planet(chance: &mut StdRng, text: &mut Text, behind: Option<(DVec3, f64)>) {
     let orbit = rounded(place::log_uniform(chance, 4.0, 40.0));
     text.section("[planet]");
     text.number("orbit_radius", orbit);
     text.number("radius", chance.random_range(0.02..0.2) * orbit);
-    for (key, most) in [("inclination", PI), ("node", TAU), ("phase", TAU), ("axis_tilt", PI)] {
-        text.number(key, chance.random_range(0.0..most));
+    let [mut inclination, mut node, mut phase, tilt] = [PI, TAU, TAU, PI].map(|most| chance.random_range(0.0..most));
+    if let Some((eye, at)) = behind {
+        // Through the point opposite to the camera, give or take.
+        let (azimuth, height) = (eye.y.atan2(eye.x), eye.normalize().z.asin());
+        inclination = (height.abs() + chance.random_range(-0.1..0.1)).max(0.01);
+        node = (azimuth - FRAC_PI_2.copysign(height)).rem_euclid(TAU);
+        let circle = Elements { semi_latus_rectum: orbit, eccentricity: 0.0, inclination, node, phase: 0.0, anomaly: 0.0 };
+        phase = place::phase_behind(chance, eye, at, &circle);
+    }
+    for (key, value) in [("inclination", inclination), ("node", node), ("phase", phase), ("axis_tilt", tilt)] {
+        text.number(key, value);
     }
     text.word("aurora", "none");
 }

@@ -11,7 +11,7 @@ use lensrunner::scene::{Body, GameConfig, Scene};
 use lensrunner::spacetime::frames::{rest_to_rain, seen_direction};
 use lensrunner::spacetime::light::{Branch, connect, rain_angle};
 use lensrunner::spacetime::matter::{ShipState, energy, gamma};
-use lensrunner::spacetime::orbit::{circular_momentum, static_momentum};
+use lensrunner::spacetime::orbit::{Elements, circular_momentum, orbital_frequency, static_momentum};
 
 /// A direction, all alike.
 pub fn direction(chance: &mut StdRng) -> DVec3 {
@@ -51,6 +51,7 @@ pub fn camera_radius(corner: Corner, chance: &mut StdRng) -> f64 {
             _ => chance.random_range(0.15..0.9),
         },
         Corner::Axis | Corner::Small => log_uniform(chance, 2.0, 40.0),
+        Corner::Rings | Corner::Within | Corner::Planet => log_uniform(chance, 3.0, 40.0),
         Corner::Open | Corner::Fast => match chance.random_range(0..8) {
             0 => chance.random_range(0.2..1.0),
             1 => chance.random_range(1.02..2.0),
@@ -115,6 +116,8 @@ pub fn thing(chance: &mut StdRng, corner: Corner, eye: DVec3, size: f64, is_stat
         Corner::Horizon => *pick(chance, &[1, 2, 3, 0]),
         Corner::PhotonSphere => *pick(chance, &[0, 1, 2, 4]),
         Corner::Fast => *pick(chance, &[0, 1, 2, 3, 4]),
+        Corner::Rings => *pick(chance, &[0, 0, 0, 5]),
+        Corner::Within | Corner::Planet => *pick(chance, &[1, 2, 3, 4]),
         Corner::Open => *pick(chance, &[0, 1, 2, 3, 4, 4]),
     };
     match way {
@@ -139,20 +142,43 @@ pub fn thing(chance: &mut StdRng, corner: Corner, eye: DVec3, size: f64, is_stat
             let r = chance.random_range(2.5..12.0) + 0.6 * size;
             DVec3::new(r * cosine, r * sine, chance.random_range(-0.4..0.4) * size)
         }
+        // Before the hole, on the line to it or beside that by less than its size: it may hide its own second image.
+        5 => eye * chance.random_range(0.2..0.85) + across(chance, n) * (log_uniform(chance, 0.05, 1.0) * size),
         _ => direction(chance) * (log_uniform(chance, 1.6, 40.0) + 0.6 * size),
     }
 }
 
-/// Whether a scene can be judged: the camera sees something and is in no thing, what is held in place is outside the horizon as a whole,
-/// and no ship inside has an energy E ≤ 0: followed backwards such a one hugs r = 1 from within for ever, half of it outside, which nothing
+/// A ball that the camera is in, and that keeps off the hole: its centre and its diameter.
+pub fn ball_around(chance: &mut StdRng, eye: DVec3) -> (DVec3, f64) {
+    let size = chance.random_range(0.1..1.0) * (eye.length() - 1.5);
+    (eye + direction(chance) * (chance.random_range(0.0..0.7 * WITHIN) * size), size)
+}
+
+/// A camera that is nearer to a ball's centre than this share of its radius is in it, however few triangles it has.
+const WITHIN: f64 = 0.7;
+
+/// The angle from its node at which a planet on such a circle is at T = 0, so that it is behind the hole, give or take, when its light leaves
+/// that arrives at T = `at`.
+pub fn phase_behind(chance: &mut StdRng, eye: DVec3, at: f64, circle: &Elements) -> f64 {
+    let radius = circle.semi_latus_rectum;
+    let behind = |phase: f64| Elements { phase, ..*circle }.state().map_or(1.0, |state| state.position.normalize().dot(eye.normalize()));
+    let nearest = (0..360).map(|degrees| f64::from(degrees).to_radians()).min_by(|a, b| behind(*a).total_cmp(&behind(*b))).unwrap_or(0.0);
+    nearest - orbital_frequency(radius) * (at - radius - eye.length()) + chance.random_range(-0.1..0.1)
+}
+
+/// Whether a scene can be judged: the camera sees something and is in no thing (unless it may be `within` one), what is held in place is
+/// outside the horizon as a whole, and no ship inside has an energy E ≤ 0: followed backwards such a one hugs r = 1 from within for ever, half of it outside, which nothing
 /// that fell in does.
-pub fn is_fair(scene: &Scene, config: &GameConfig, at: f64) -> bool {
+pub fn is_fair(scene: &Scene, config: &GameConfig, at: f64, within: bool) -> bool {
     let assembly = scene.assemble(config);
     let Ok(eye) = (if at == 0.0 { eye_at_start(scene) } else { eye_at(scene, config, at) }) else { return false };
     let apart = assembly.objects.iter().all(|object| {
         let reach = 1.02 * f64::from(assembly.models[object.model].radius()) * object.scale;
         match object.body {
-            Body::Static { position, .. } => position.length() - reach > 1.002 && position.distance(eye) > reach,
+            Body::Static { position, .. } => {
+                let away = position.distance(eye);
+                position.length() - reach > 1.002 && (away > reach || within && away < WITHIN * reach)
+            }
             Body::Ship(ship) => {
                 let state = &scene.ships[ship].state;
                 state.position.distance(eye) > reach.max(0.3) && (state.position.length() > 1.0 || energy(state) > 0.0)

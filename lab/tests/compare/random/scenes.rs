@@ -128,17 +128,28 @@ fn drawn_scenes_load_and_cover_what_methods_fail_at() {
             let n = eye.normalize();
             let beside = (position - n * position.dot(n)).length();
             see("behind, beside the axis by less than its size", position.dot(n) < 0.0 && beside < object.scale);
+            see("before its second image", position.dot(n) > 0.0 && position.dot(n) < eye.length() && beside < object.scale);
+            see("seen from within", position.distance(eye) < 0.4 * object.scale);
             see("astride the disk", position.z.abs() < 0.4 * object.scale && position.length() < 15.0);
             assert!(position.length() - 0.5 * object.scale > 1.0);
         }
         for shape in ["icosphere", "sphere", "square"] {
             see(shape, drawn.text.contains(&format!("model = \"{shape}\"")));
         }
+        if drawn.corner == Corner::Planet {
+            let leaves = drawn.at - eye.length() - scene.planet.as_ref().unwrap().orbit.semi_latus_rectum;
+            let away = scene.planet.as_ref().unwrap().state(leaves).unwrap().position.angle_between(-eye);
+            assert!(away < 0.3, "{away} rad from the axis");
+        }
+        see("upright", drawn.size[1] > drawn.size[0]);
+        see("wide view", scene.camera.fov > 2.4);
+        see("narrow view", scene.camera.fov < 0.2);
         see("model", drawn.text.contains("name = \"model-"));
         see("flown by hands", drawn.text.contains("ai = \"hands\""));
     }
     assert!((0.4..0.6).contains(&(open as f64 / CASES as f64)), "{open} of {CASES} are open");
-    let wanted = "open; axis; photon-sphere; horizon; fast; small-triangles; hovering; falling; moving outwards; \
+    let wanted = "open; axis; photon-sphere; horizon; fast; small-triangles; rings; within; planet; \
+                  before its second image; seen from within; upright; 256x72; wide view; narrow view; hovering; falling; moving outwards; \
                   inside; photon sphere; just outside; far; planet; disk; later; 160x90; 320x180; fast ship; thrust; \
                   flown by hands; hunter.glb; quarry.glb; many triangles; few triangles; \
                   behind, beside the axis by less than its size; astride the disk; icosphere; sphere; square; model";
