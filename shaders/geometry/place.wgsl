@@ -419,14 +419,14 @@ fn write_instance(index: u32, instance: Instance) {
     write_numbers(index, 5u, vec4<f32>(instance.snap, instance.crossings));
     write_numbers(index, 6u, vec4<f32>(instance.momentum, instance.gamma));
     write_numbers(index, 7u, vec4<f32>(instance.contraction, instance.rounding));
-    write_numbers(index, 8u, vec4<f32>(instance.force, instance.strays));
+    write_numbers(index, 8u, vec4<f32>(instance.force, instance.path_across));
     write_numbers(index, 9u, vec4<f32>(instance.spin, instance.spin_slack));
     write_numbers(index, 10u, vec4<f32>(instance.shape_x, instance.strictness));
     write_numbers(index, 11u, vec4<f32>(instance.shape_y, instance.first_node));
     write_numbers(index, 12u, vec4<f32>(instance.shape_z, instance.nodes_per_time));
     write_numbers(index, 13u, vec4<f32>(instance.turn_x, instance.node_intervals));
     write_numbers(index, 14u, vec4<f32>(instance.turn_y, 0.0));
-    write_numbers(index, 15u, vec4<f32>(instance.turn_z, 0.0));
+    write_numbers(index, 15u, vec4<f32>(instance.turn_z, instance.path_along));
     write_numbers(index, 16u, instance.light_red);
     write_numbers(index, 17u, instance.light_green);
     write_numbers(index, 18u, instance.light_blue);

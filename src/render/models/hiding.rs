@@ -3,11 +3,13 @@
 //! A thin image has no depth: its brightness is the sum of the areas of its triangles. Triangles inside or behind another part would count
 //! too. So for each triangle it is known from which directions the rest of its model does not hide it, by a depth map for each direction.
 
+use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
 use glam::{BVec4A, Vec2, Vec3, Vec4};
 use rayon::prelude::*;
 
+use crate::render::models::outside::{AGAINST, ALONG, LONE};
 use crate::scene::model::Model;
 
 /// Nodes along each side of the map of directions: a sphere's octahedron, unfolded onto a square (Cigolle et al. 2014, "A survey of efficient
@@ -51,16 +53,20 @@ fn folded([x, y]: [f32; 2]) -> [f32; 2] {
 }
 
 /// For each triangle of the model, in its order, a bit for each direction: it is set in as large a share of the directions around as the
-/// share of the triangle that is seen from there.
-pub fn seen_from(model: &Model) -> Vec<SeenFrom> {
+/// share of the triangle that is seen from there. `sides` are those of the model.
+pub fn seen_from(model: &Model, sides: &[u32]) -> Vec<SeenFrom> {
     let corners: Vec<[Vec3; 3]> =
         model.triangles.iter().map(|triangle| triangle.map(|vertex| Vec3::from(model.vertices[vertex as usize].position))).collect();
     let lock = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, known)) = lock().iter().find(|(other, _)| *other == corners) {
         return known.clone();
     }
+    let outward: Vec<Option<Vec3>> = corners.iter().zip(sides).map(|(corners, side)| outward(corners, *side)).collect();
+    if sides.iter().all(|side| side & LONE != 0) && is_convex(&corners, &outward) {
+        return vec![[u32::MAX; 4]; corners.len()];
+    }
     let seen: Vec<Vec<f32>> =
-        (0..DIRECTIONS).into_par_iter().map_init(Vec::new, |depths, k| seen_in(&corners, direction_of(k), depths)).collect();
+        (0..DIRECTIONS).into_par_iter().map_init(Vec::new, |depths, k| seen_in(&corners, &outward, direction_of(k), depths)).collect();
     let mut found = vec![SeenFrom::default(); corners.len()];
     for (k, shares) in seen.iter().enumerate() {
         for (i, (share, bits)) in shares.iter().zip(&mut found).enumerate() {
@@ -104,8 +110,42 @@ pub fn seen_part(seen_from: SeenFrom, outward: Vec3, direction: Vec3) -> f32 {
     if all < 1e-6 { 1.0 } else { sum / all }
 }
 
-/// The share of each triangle that is seen from `direction`, far away; `depths` is room for a depth map.
-fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3, depths: &mut Vec<f32>) -> Vec<f32> {
+/// The normal of a triangle of a closed body on its outer side; None for one of an open sheet.
+fn outward([a, b, c]: &[Vec3; 3], side: u32) -> Option<Vec3> {
+    let normal = (b - a).cross(c - a).normalize_or_zero();
+    if side & ALONG != 0 { Some(normal) } else { (side & AGAINST != 0).then_some(-normal) }
+}
+
+/// Whether a closed body is convex, so that nothing hides another part of it: no triangle rises over the plane of one beside it.
+fn is_convex(triangles: &[[Vec3; 3]], outward: &[Option<Vec3>]) -> bool {
+    let key = |a: Vec3, b: Vec3| {
+        let [a, b] = [a, b].map(|p| (p + 0.0).to_array().map(f32::to_bits));
+        [a.min(b), a.max(b)]
+    };
+    let mut third: HashMap<[[u32; 3]; 2], Vec<(Vec3, Vec3)>> = HashMap::new();
+    let size = triangles.iter().flatten().fold(0f32, |size, p| size.max(p.length()));
+    for ([a, b, c], outward) in triangles.iter().zip(outward) {
+        let Some(outward) = *outward else { return false };
+        for (edge, opposite) in [(key(*a, *b), *c), (key(*b, *c), *a), (key(*c, *a), *b)] {
+            let beside = third.entry(edge).or_default();
+            if beside
+                .iter()
+                .any(|(other, normal)| (opposite - *a).dot(*normal).max((*other - *a).dot(outward)) > FLAT * size && edge[0] != edge[1])
+            {
+                return false;
+            }
+            beside.push((opposite, outward));
+        }
+    }
+    true
+}
+
+/// A corner so far over a plane, as a share of the model's size, is on it.
+const FLAT: f32 = 1e-5;
+
+/// The share of each triangle that is seen from `direction`, far away; `depths` is room for a depth map. Triangles of closed bodies hide
+/// nothing with their inner side, for another one is before it.
+fn seen_in(triangles: &[[Vec3; 3]], outward: &[Option<Vec3>], direction: Vec3, depths: &mut Vec<f32>) -> Vec<f32> {
     let (right, up) = direction.any_orthonormal_pair();
     // On the map x and y, and z towards the eye.
     let turned: Vec<[Vec3; 3]> =
@@ -118,7 +158,8 @@ fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3, depths: &mut Vec<f32>) -> V
     let place = |p: Vec3| (p - low).truncate() / cell;
     depths.clear();
     depths.resize((side + SPARE) * side, f32::NEG_INFINITY);
-    for corners in &turned {
+    let turned_away = |k: usize| outward[k].is_some_and(|outward| outward.dot(direction) < 0.0);
+    for (_, corners) in turned.iter().enumerate().filter(|(k, _)| !turned_away(*k)) {
         cells_of(corners, side, place, |first, inside, depth| {
             let cells = &mut depths[first..][..4];
             let here = Vec4::from_slice(cells);
@@ -128,8 +169,12 @@ fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3, depths: &mut Vec<f32>) -> V
     let slack_of_all = 1e-4 * (high - low).max_element();
     turned
         .iter()
-        .map(|corners| {
+        .enumerate()
+        .map(|(k, corners)| {
             let (mut covers, mut shows) = (0, 0);
+            if turned_away(k) {
+                return 0.0;
+            }
             cells_of(corners, side, place, |first, inside, depth| {
                 let seen = inside & (depth + slack_of_all).cmpge(Vec4::from_slice(&depths[first..][..4]));
                 covers += inside.bitmask().count_ones();
@@ -141,7 +186,7 @@ fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3, depths: &mut Vec<f32>) -> V
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
             // The map has the depth at the middle of a cell: on a plane this much nearer at most, and rounding.
             let slope = normal.truncate().length() / normal.z.abs().max(0.05);
-            let slack = 1.5 * slope * cell + slack_of_all;
+            let slack = 0.5 * slope * cell + slack_of_all;
             let [x, y, z] =
                 [0, 1, 2].map(|axis| POINTS[0] * corners[0][axis] + POINTS[1] * corners[1][axis] + POINTS[2] * corners[2][axis]);
             let [x, y] = [(x - low.x) / cell, (y - low.y) / cell].map(|place| place.to_array());
@@ -207,8 +252,12 @@ fn cells_of(corners: &[Vec3; 3], side: usize, place: impl Fn(Vec3) -> Vec2, mut 
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
+    use crate::render::models::outside::{OPEN, sides};
     use crate::scene::Material;
+    use crate::scene::model::import::load_model;
     use crate::scene::model::shapes;
 
     /// A ball, one inside it and one beside it, wound outward.
@@ -233,7 +282,7 @@ mod tests {
         let model = balls();
         let radius = Vec3::from(model.vertices[0].position).length();
         let disc = std::f32::consts::PI * radius * radius;
-        let seen = seen_from(&model);
+        let seen = seen_from(&model, &sides(&model));
         // Discs seen: both from the side, one along the line of the two; from the nearest of the directions much of the other is still
         // seen.
         for (direction, least, most) in
@@ -257,6 +306,86 @@ mod tests {
         assert!(apart.filter(|angle| *angle > 1e-3).fold(f32::INFINITY, f32::min) > 0.15);
     }
 
+    /// Area and lamps of the ships in a hundred directions: the sums of parts beside a map of a million cells.
+    #[test]
+    fn sums_of_parts_are_the_light_of_a_ship() {
+        let project = Path::new(env!("CARGO_MANIFEST_DIR"));
+        for name in ["hunter.glb", "quarry.glb"] {
+            let model = load_model(&project.join("assets/models").join(name)).expect("a ship of the game");
+            let corners = corners_of(&model);
+            let sides = sides(&model);
+            let seen = seen_from(&model, &sides);
+            let lamp = |i: usize| model.materials[model.triangle_materials[i] as usize].emissive.iter().sum::<f32>();
+            let mut sums = Vec::new();
+            for k in 0..100u32 {
+                let (z, angle) = ((k as f32 + 0.5) / 50.0 - 1.0, k as f32 * 2.399_963);
+                let direction = (Vec3::new(angle.cos(), angle.sin(), 0.0) * (1.0 - z * z).sqrt()).with_z(z);
+                let mut sum = Vec4::ZERO;
+                for (i, triangle) in corners.iter().enumerate() {
+                    let [a, b, c] = *triangle;
+                    let plane = outward(triangle, sides[i]).unwrap_or((b - a).cross(c - a).normalize_or_zero());
+                    let cosine = plane.dot(direction);
+                    if cosine > 0.0 || sides[i] == OPEN {
+                        let area = 0.5 * (b - a).cross(c - a).length() * cosine.abs();
+                        let part = area * seen_part(seen[i], plane * cosine.signum(), direction);
+                        sum += Vec4::new(part, part * lamp(i), 0.0, 0.0);
+                    }
+                }
+                let [area, lamps] = exact(&corners, direction, lamp);
+                sums.push(sum + Vec4::new(0.0, 0.0, area, lamps));
+            }
+            let mean = sums.iter().sum::<Vec4>() / sums.len() as f32;
+            assert!((mean.x / mean.z - 1.0).abs() < 0.01 && (mean.y / mean.w - 1.0).abs() < 0.1, "{name}: {mean}");
+            // Lamps in nozzles are seen from a narrow cone, whose border the directions blur.
+            for (k, most) in [(0, 0.05), (1, 0.65)] {
+                let mut off: Vec<f32> = sums.iter().map(|sum| (sum[k] / mean[k + 2] - sum[k + 2] / mean[k + 2]).abs()).collect();
+                off.sort_by(f32::total_cmp);
+                assert!(off[90] < most, "{name}: {} of the mean at 90 %", off[90]);
+            }
+        }
+    }
+
+    fn corners_of(model: &Model) -> Vec<[Vec3; 3]> {
+        model.triangles.iter().map(|t| t.map(|i| Vec3::from(model.vertices[i as usize].position))).collect()
+    }
+
+    #[test]
+    fn a_convex_body_hides_nothing_of_itself() {
+        let sphere = |model: Model| is_convex(&corners_of(&model), &outward_of(&model));
+        assert!(sphere(shapes::icosphere(5000, Material::default())) && sphere(shapes::uv_sphere(5000, Material::default())));
+        let mut dented = shapes::icosphere(320, Material::default());
+        dented.vertices[17].position = dented.vertices[17].position.map(|x| 0.9 * x);
+        assert!(!sphere(dented));
+    }
+
+    fn outward_of(model: &Model) -> Vec<Option<Vec3>> {
+        corners_of(model).iter().zip(sides(model)).map(|(corners, side)| outward(corners, side)).collect()
+    }
+
+    /// The area of a body on a map, and that times the lamp of each of its triangles.
+    fn exact(triangles: &[[Vec3; 3]], direction: Vec3, lamp: impl Fn(usize) -> f32) -> [f32; 2] {
+        let (right, up) = direction.any_orthonormal_pair();
+        let turned: Vec<[Vec3; 3]> = triangles.iter().map(|c| c.map(|p| Vec3::new(p.dot(right), p.dot(up), p.dot(direction)))).collect();
+        let low = turned.iter().flatten().fold(Vec3::INFINITY, |l, p| l.min(*p));
+        let high = turned.iter().flatten().fold(Vec3::NEG_INFINITY, |h, p| h.max(*p));
+        let side = 1024;
+        let cell = (high - low).truncate().max_element() / side as f32;
+        let place = |p: Vec3| (p - low).truncate() / cell;
+        let mut depths = vec![f32::NEG_INFINITY; (side + SPARE) * side];
+        let mut nearest = vec![u32::MAX; (side + SPARE) * side];
+        for (i, c) in turned.iter().enumerate() {
+            cells_of(c, side, place, |first, inside, depth| {
+                for k in 0..4 {
+                    if inside.test(k) && depth[k] > depths[first + k] {
+                        (depths[first + k], nearest[first + k]) = (depth[k], i as u32);
+                    }
+                }
+            });
+        }
+        let shown = nearest.iter().filter(|i| **i != u32::MAX);
+        [shown.clone().count() as f32 * cell * cell, shown.map(|i| lamp(*i as usize)).sum::<f32>() * cell * cell]
+    }
+
     #[test]
     fn many_triangles_on_one_another_get_a_coarser_map() {
         let one = [Vec3::ZERO, Vec3::X, Vec3::Y];
@@ -264,7 +393,7 @@ mod tests {
         assert_eq!([side(1), side(200), side(2_000), side(100_000)], [32, 56, 89, 8]);
         assert!(covered(&vec![one; 100_000], side(100_000) as f32) <= MOST_CELLS);
         // None of them hides another.
-        assert!(seen_in(&vec![one; 100_000], Vec3::Z, &mut Vec::new()).iter().all(|seen| *seen == 1.0));
+        assert!(seen_in(&vec![one; 100_000], &vec![None; 100_000], Vec3::Z, &mut Vec::new()).iter().all(|seen| *seen == 1.0));
         let ball = shapes::icosphere(20_000, Material::default());
         let corners: Vec<[Vec3; 3]> =
             ball.triangles.iter().map(|triangle| triangle.map(|i| Vec3::from(ball.vertices[i as usize].position))).collect();

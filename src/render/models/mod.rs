@@ -83,7 +83,9 @@ impl Prepared {
         let mut edges = Vec::new();
         let mut numbers: HashMap<[u32; 2], u32> = HashMap::new();
         let mut triangles = Vec::with_capacity(model.triangles.len());
-        let known = sides(model).into_iter().zip(seen_from(model));
+        let sides = sides(model);
+        let seen = seen_from(model, &sides);
+        let known = sides.into_iter().zip(seen);
         for ((triangle, &material), (side, seen)) in model.triangles.iter().zip(&model.triangle_materials).zip(known) {
             let mut v = triangle.map(|vertex| place[&(vertex, material)]);
             let side = if in_turn(v) || side == OPEN { side } else { side ^ (ALONG | AGAINST) };
