@@ -27,21 +27,46 @@ fn pixels(clip: vec4<f32>) -> vec2<f32> {
     return clip.xy / clip.w * 0.5 * frame.size;
 }
 
-/// Sides and heights below this, in pixels, are widened only as much as one of this length: f32 pixels (3e-5 at 500) do not resolve them.
-const LEAST_ALONG: f32 = 0.05;
+/// Triangles lower than this, in pixels, are not stretched: f32 pixels (3e-5 at 500) do not resolve their shapes.
 const LEAST_HEIGHT: f32 = 1e-3;
+/// The shortest triangles that are drawn, in pixels: of shorter ones not even the area is resolved.
+const LEAST_DRAWN: f32 = 1e-4;
+/// Triangles shorter than this, in pixels, are drawn on the middle of the pixel that they are in. Those of an image so small lie in one
+/// place, and however they were stretched they would all meet a pixel's middle or all miss it.
+const SHORT: f32 = 1.0;
 
-/// Factors by which a thin triangle is drawn longer and higher than it is, to the least width.
-fn stretched(length_along: f32, height: f32) -> vec2<f32> {
-    let least = frame.least_width;
-    return max(vec2<f32>(1.0), least / max(vec2<f32>(length_along, height), vec2<f32>(LEAST_ALONG, LEAST_HEIGHT)));
+/// How a thin triangle is drawn: its corners and its area, both on the screen, in pixels.
+struct Drawn {
+    corners: mat3x2<f32>,
+    area: f32,
 }
 
-/// Widens a thin triangle about its centroid, along a direction and across it.
-fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, stretch: vec2<f32>) -> vec2<f32> {
+/// A thin triangle stretched about its centroid, along its longest side and across it, to the least width. Of one that f32 does not resolve
+/// half of a rectangle about its longest side is drawn, this half or that: together such halves cover a pixel's middle as often as they
+/// should. The longest side is that of the first two corners.
+fn widened(a: vec2<f32>, b: vec2<f32>, c: vec2<f32>, height: f32, other_half: bool) -> Drawn {
+    let least = frame.least_width;
+    let centre = (a + b + c) / 3.0;
+    let along = length(b - a);
+    if along < SHORT {
+        let middle = floor(centre + 0.5 * frame.size) + 0.5 - 0.5 * frame.size;
+        return Drawn(mat3x2<f32>(middle + vec2<f32>(-0.3, -0.2), middle + vec2<f32>(0.3, -0.2), middle + vec2<f32>(0.0, 0.4)), 1.0);
+    }
+    let direction = (b - a) / along;
     let across = vec2<f32>(-direction.y, direction.x);
-    let v = p - centre;
-    return centre + direction * (dot(v, direction) * stretch.x) + across * (dot(v, across) * stretch.y);
+    if height < LEAST_HEIGHT {
+        let v = 0.5 * least * across;
+        let start = a - v;
+        let end = b + v;
+        return Drawn(mat3x2<f32>(start, end, select(b - v, a + v, other_half)), 0.5 * along * least);
+    }
+    let stretch = max(vec2<f32>(1.0), least / vec2<f32>(along, height));
+    let turned = mat3x2<f32>(a - centre, b - centre, c - centre);
+    let longer = stretch.x * (direction * turned);
+    let higher = stretch.y * (across * turned);
+    let corners = mat3x2<f32>(centre + direction * longer.x + across * higher.x, centre + direction * longer.y + across * higher.y,
+        centre + direction * longer.z + across * higher.z);
+    return Drawn(corners, 0.5 * along * height * stretch.x * stretch.y);
 }
 
 /// The share of a triangle whose light crosses the disk's plane as often as the image order says; that of the rest crosses it once less. As
@@ -90,6 +115,11 @@ fn bulge(start: OnRing, end: OnRing) -> f32 {
     return turn * turn * (start.tangent.x * end.tangent.y - start.tangent.y * end.tangent.x) / 12.0;
 }
 
+fn thin_vertex(place: vec2<f32>, id: u32, coverage: f32, order: u32, share: f32) -> ThinVertex {
+    let clip = clip_position(seen[id].apparent);
+    return ThinVertex(vec4<f32>(place * clip.w, clip.zw), id, coverage, order, share);
+}
+
 /// Draws a triangle of a thin image with coverage; true if that was done, or if the triangle faces away. Only objects whose whole image is
 /// thin have such triangles: a sliver inside a wide image is covered by its neighbours and stays opaque. `seen_from` has the directions
 /// from which it is not hidden.
@@ -118,32 +148,30 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
     if facing.closed && from_behind {
         return true;
     }
-    let a = p1 - p0;
-    let b = p2 - p1;
-    let c = p0 - p2;
-    var direction = a;
-    if dot(b, b) > dot(direction, direction) { direction = b; }
-    if dot(c, c) > dot(direction, direction) { direction = c; }
-    let along = length(direction);
-    // Nothing is visible, and f32 pixels (3e-5 at 500) do not resolve its direction.
-    if along < 1e-3 || height < 1e-5 {
+    // The corners from the longest side on.
+    let lengths = vec3<f32>(distance(p0, p1), distance(p1, p2), distance(p2, p0));
+    let longest = max(lengths.x, max(lengths.y, lengths.z));
+    let area = 0.5 * turned * longest;
+    if longest < LEAST_DRAWN || area == 0.0 {
         return true;
     }
-    direction = direction / along;
+    let first = select(select(2u, 1u, lengths.y == longest), 0u, lengths.x == longest);
+    let ids = select(select(vec3<u32>(i2, i0, i1), vec3<u32>(i1, i2, i0), first == 1u), vec3<u32>(i0, i1, i2), first == 0u);
+    var places = array<vec2<f32>, 5>(p0, p1, p2, p0, p1);
+    let drawn = widened(places[first], places[first + 1u], places[first + 2u], height, ((i0 ^ i1 ^ i2) & 1u) != 0u);
     let towards_eye = select(1.0, -1.0, from_behind);
     let sense = select(1.0, sign(turned) * facing.turn * towards_eye, facing.turn != 0.0);
-    let stretch = stretched(along, height);
     // The share of the drawn area that it covers, times its share that no other part of the model hides.
     let part = seen_part(seen_from, in_body_axes(instance, facing.normal * towards_eye),
         in_body_axes(instance, leaving / max(length(leaving), 1e-20)));
-    var coverage = sense * part / (stretch.x * stretch.y);
+    var covers = area;
     if is_thin_ring(instance) {
         let r0 = on_ring(seen[i0].apparent);
         let r1 = on_ring(seen[i1].apparent);
         let r2 = on_ring(seen[i2].apparent);
-        let bulges = bulge(r0, r1) + bulge(r1, r2) + bulge(r2, r0);
-        coverage *= 1.0 + 2.0 * bulges / (a.x * b.y - a.y * b.x);
+        covers += bulge(r0, r1) + bulge(r1, r2) + bulge(r2, r0);
     }
+    let coverage = sense * part * sign(area) * covers / drawn.area;
     if coverage == 0.0 {
         return true;
     }
@@ -152,16 +180,12 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
         atomicSub(&counters.thin, 3u);
         return false;
     }
-    let centre = (p0 + p1 + p2) / 3.0;
     let order = instance.order;
     let share = share_across(instance, vec3<f32>(seen[i0].height, seen[i1].height, seen[i2].height));
     let scale = 2.0 / frame.size;
-    thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, stretch) * scale * c0.w, c0.zw),
-        i0, coverage, order, share);
-    thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, stretch) * scale * c1.w, c1.zw),
-        i1, coverage, order, share);
-    thin[slot + 2u] = ThinVertex(vec4<f32>(grown(p2, centre, direction, stretch) * scale * c2.w, c2.zw),
-        i2, coverage, order, share);
+    thin[slot] = thin_vertex(drawn.corners[0] * scale, ids.x, coverage, order, share);
+    thin[slot + 1u] = thin_vertex(drawn.corners[1] * scale, ids.y, coverage, order, share);
+    thin[slot + 2u] = thin_vertex(drawn.corners[2] * scale, ids.z, coverage, order, share);
     return true;
 }
 
