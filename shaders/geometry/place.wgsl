@@ -209,6 +209,8 @@ const BESIDE: f32 = 4.0;
 const ROUNDING: f32 = 4e-7;
 const NARROW_RING_BELOW: f32 = 10.0;
 const THIN_STRICTNESS: f32 = 4.0;
+const THIN_RING_BELOW: f32 = 2.0;
+const MOST_THIN_RING: f32 = 64.0;
 const FLAT: f32 = 2.0;
 const NARROW_IMAGE_BELOW: f32 = 16.0;
 const MOST_NARROW_STRICTNESS: f32 = 8.0;
@@ -330,8 +332,9 @@ fn image_of(thread: u32) -> Image {
         | select(0u, INSTANCE_MINUS, minus)
         | select(0u, INSTANCE_NARROW_RING, select(width < NARROW_RING_BELOW && order > 1u, is_drawn_out(extent), thin))
         | select(0u, INSTANCE_THIN, thin);
+    let thin_strictness = select(THIN_STRICTNESS, clamp(THIN_RING_BELOW / width, THIN_STRICTNESS, MOST_THIN_RING), is_drawn_out(extent));
     instance.strictness = held_frame.strictness
-        * select(clamp(NARROW_IMAGE_BELOW / width, 1.0, MOST_NARROW_STRICTNESS), THIN_STRICTNESS, thin);
+        * select(clamp(NARROW_IMAGE_BELOW / width, 1.0, MOST_NARROW_STRICTNESS), thin_strictness, thin);
     let has_numbers = finite_vector(offset) && finite_vector(vec3<f32>(beside, instance.strictness))
         && finite_vector(instance.bound_high.middle + instance.bound_low.middle + instance.bound_look.middle);
     if !has_numbers {

@@ -189,7 +189,7 @@ fn emit_leaf(piece: Piece, levels: vec3<u32>, instance: Instance) {
     let turn = select(select(2u, 1u, levels.y == most), 0u, levels.x == most);
     let turned = vec3<u32>(levels[turn], levels[(turn + 1u) % 3u], levels[(turn + 2u) % 3u]);
     let columns = max(turned.x, turned.y + turned.z);
-    if most < 4u || columns > most + 2u || !is_narrow(turn, turned, instance.order) {
+    if most < 4u || columns > most + 2u || is_thin(instance) || !is_narrow(turn, turned, instance.order) {
         emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
         return;
     }

@@ -460,7 +460,7 @@ impl Geometry {
             let targets = [(LAYERS_FORMAT, None); 2];
             let layers =
                 |label, vertex| pipeline(label, Raster { vertex, fragment: "layers_fragment", targets: &targets, depth: Some(true) });
-            LayerDraws { opaque: layers("layers", "opaque_vertex"), thin: layers("layers thin", "thin_vertex") }
+            LayerDraws { opaque: layers("layers", "opaque_vertex"), thin: layers("layers thin", "thin_layers_vertex") }
         });
     }
 

@@ -230,8 +230,10 @@ fn is_thin(extent: &Extent, flatness: f32, settings: &Settings) -> bool {
 fn set_strictness(instance: &mut Instance, view: &InstanceView, extent: &Extent, flatness: f32, order: Order) {
     let width = extent.width;
     if is_thin(extent, flatness, view.settings) {
-        instance.flags |= THIN | if extent.is_drawn_out() { NARROW_RING } else { 0 };
-        instance.strictness = THIN_STRICTNESS as f32;
+        let of_ring = (THIN_RING_BELOW / width).clamp(THIN_STRICTNESS, MOST_THIN_RING);
+        let (strictness, ring) = if extent.is_drawn_out() { (of_ring, NARROW_RING) } else { (THIN_STRICTNESS, 0) };
+        instance.flags |= THIN | ring;
+        instance.strictness = strictness as f32;
     } else {
         instance.flags |= if width < NARROW_RING_BELOW && order.number() > 1 { NARROW_RING } else { 0 };
         instance.strictness = (NARROW_IMAGE_BELOW / width).clamp(1.0, MOST_NARROW_STRICTNESS) as f32;
@@ -258,6 +260,10 @@ const NARROW_RING_BELOW: f64 = 10.0;
 /// Strictness of thin images. They lie along the edge of the shadow and are widened by half a pixel. So their chords are held this much
 /// closer, and sag and widening together stay under a pixel.
 const THIN_STRICTNESS: f64 = 4.0;
+/// Chords of thin rings are held closer than the ring is wide, if they can: what one cuts off is added to its triangle's coverage, and if
+/// that is much more than the triangle, places where it is drawn make the ring uneven.
+const THIN_RING_BELOW: f64 = 2.0;
+const MOST_THIN_RING: f64 = 64.0;
 /// Sections of a body that is less flat are about as wide as its ball.
 const FLAT: f32 = 2.0;
 /// Images narrower than this, in pixels, are narrow ones. The narrower they are, the closer their chords are held, since all of them are
