@@ -266,7 +266,7 @@ fn a_distant_ship_on_the_axis_is_seen_where_it_was() {
         let towards = camera.attitude * apparent(vertex);
         let off = (towards.y.atan2(towards.z) - place.y.atan2(place.z)).sin() * place.y.hypot(place.z);
         // The search for the emission time may end a fiftieth of a pixel off.
-        assert!(off.abs() < 3e-6, "{place}: {off:e} r_s");
+        assert!(off.abs() < 1e-5, "{place}: {off:e} r_s");
     }
 }
 
