@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::grid::{FULL, Grid, thin_parts};
+use super::grid::{FULL, Grid};
 use crate::compare::ContestantFrame;
 use crate::compare::fault::{Fault, Kind, Limits};
 use lensrunner::judge::picture::TracedPicture;
@@ -73,7 +73,7 @@ pub fn areas(judge: &TracedPicture, frame: &ContestantFrame, names: &[String], i
         }
         let coverage = f64::from(shown.coverage);
         let parts = if shown.coverage < 1.0 {
-            thin_parts(&judge.shares[i], (shown.object, shown.order), is_thin)
+            grid.thin_parts(&judge.shares, i, shown.image(), is_thin)
         } else {
             vec![((shown.object, shown.order), 1.0)]
         };

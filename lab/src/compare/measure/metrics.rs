@@ -1,6 +1,6 @@
 //! How far a picture is from the judge's.
 
-use super::grid::{FULL, Grid, thin_parts};
+use super::grid::{FULL, Grid};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use rayon::prelude::*;
@@ -162,8 +162,9 @@ struct Pixel<'a> {
 
 impl<'a> Pair<'a> {
     fn new(judge: &'a TracedPicture, frame: &'a ContestantFrame, names: &'a [String]) -> Pair<'a> {
-        let (thin, by_centres) = (thin_images(judge, frame), drawn_by_centres(frame));
-        Pair { judge, frame, names, grid: Grid::of(judge.size), thin, by_centres }
+        let grid = Grid::of(judge.size);
+        let (thin, by_centres) = (thin_images(judge, frame, &grid), drawn_by_centres(frame));
+        Pair { judge, frame, names, grid, thin, by_centres }
     }
 
     fn pixel(&self, i: usize) -> Pixel<'a> {
@@ -279,7 +280,7 @@ impl<'a> Found<'a> {
             self.tally(pair, shown).thin[1] += 1.0;
         } else if pixel.shown.object > 0 && pair.is_thin(shown) {
             let is_thin = |object: u32, order: u32| pair.is_thin((object, order));
-            for (image, part) in thin_parts(&pair.judge.shares[pixel.i], shown, &is_thin) {
+            for (image, part) in pair.grid.thin_parts(&pair.judge.shares, pixel.i, shown, &is_thin) {
                 self.tally(pair, image).thin[1] += f64::from(pixel.shown.coverage) * part;
             }
         }
@@ -336,19 +337,28 @@ fn all_around([x, y]: [f64; 2], holds: impl Fn(f64, f64) -> bool) -> bool {
 
 /// Objects and orders that are compared by the area they cover: those that nowhere fill a pixel to the judge; and those that the contestant
 /// draws by coverage, if they hardly do: they fill a single pixel, or, drawn out along the ring, an image may be narrow and yet fill a
-/// pixel here and there.
-fn thin_images(judge: &TracedPicture, frame: &ContestantFrame) -> HashSet<Image> {
+/// pixel here and there, but not those around it too.
+fn thin_images(judge: &TracedPicture, frame: &ContestantFrame, grid: &Grid) -> HashSet<Image> {
     // Pixels touched and pixels filled.
     let mut counts: BTreeMap<Image, [usize; 2]> = BTreeMap::new();
-    for &(object, order, share) in judge.shares.iter().flatten() {
-        let [touched, filled] = counts.entry((object, order)).or_default();
-        *touched += 1;
-        *filled += usize::from(share >= FULL);
+    let mut wide: HashSet<Image> = HashSet::new();
+    for (i, shares) in judge.shares.iter().enumerate() {
+        for &(object, order, share) in shares {
+            let image = (object, order);
+            let [touched, filled] = counts.entry(image).or_default();
+            *touched += 1;
+            *filled += usize::from(share >= FULL);
+            let fills = |j: usize| judge.shares[j].iter().any(|share| (share.0, share.1) == image && share.2 >= FULL);
+            if share >= FULL && !wide.contains(&image) && grid.around(i).into_iter().all(fills) {
+                wide.insert(image);
+            }
+        }
     }
     let nowhere = counts.iter().filter(|(_, [_, filled])| *filled == 0).map(|(key, _)| *key);
     let by_coverage = frame.shown.iter().filter(|shown| shown.object > 0 && shown.coverage < 1.0).map(Shown::image);
     // What not one sample of the judge has met is narrow for sure.
-    let hardly = by_coverage.filter(|key| counts.get(key).is_none_or(|[touched, filled]| *filled <= FEW || MOSTLY * filled < *touched));
+    let is_rare = |[touched, filled]: &[usize; 2]| *filled <= FEW || MOSTLY * filled < *touched;
+    let hardly = by_coverage.filter(|key| !wide.contains(key) || counts.get(key).is_none_or(is_rare));
     nowhere.chain(hardly).collect()
 }
 
