@@ -392,7 +392,7 @@ fn plane_crossings(camera_height: f32, height: f32, order: u32) -> u32 {
 
 /// Whether an image is so narrow that a ray a pixel may miss it.
 fn is_thin(body: HeldBody, extent: Extent) -> bool {
-    let wider = select(1.0, body.flatness, is_drawn_out(extent) && body.flatness > FLAT);
+    let wider = select(1.0, max(body.flatness / FLAT, 1.0), is_drawn_out(extent));
     return extent.width < held_frame.thin_below * wider && held_frame.has_thin == 1u;
 }
 

@@ -110,7 +110,7 @@ impl Settings {
             midpoint: false,
             vertex_budget: 1_200_000,
             min_width: 1.0,
-            thin_below: 1.0,
+            thin_below: 2.0,
             coarse_below: 0.0,
             least_width: 0.05,
             ring_error: 1.0,

@@ -222,7 +222,7 @@ pub fn place<'l>(list: &'l mut PlacedList, view: &InstanceView, time: f64, objec
 /// Whether an image is so narrow that a ray a pixel may miss it. A ring shows the body's sections across the axis, and is narrower at most
 /// azimuths than its ball.
 fn is_thin(extent: &Extent, flatness: f32, settings: &Settings) -> bool {
-    let wider = if extent.is_drawn_out() && flatness > FLAT { f64::from(flatness) } else { 1.0 };
+    let wider = if extent.is_drawn_out() { f64::from(flatness / FLAT).max(1.0) } else { 1.0 };
     extent.width < settings.thin_below * wider && settings.min_width > 0.0
 }
 
@@ -264,7 +264,7 @@ const THIN_STRICTNESS: f64 = 4.0;
 /// that is much more than the triangle, places where it is drawn make the ring uneven.
 const THIN_RING_BELOW: f64 = 2.0;
 const MOST_THIN_RING: f64 = 64.0;
-/// Sections of a body that is less flat are about as wide as its ball.
+/// Flatness up to which sections of a body are about as wide as its ball.
 const FLAT: f32 = 2.0;
 /// Images narrower than this, in pixels, are narrow ones. The narrower they are, the closer their chords are held, since all of them are
 /// near an outline. The width is the largest; a ring is a tenth as wide elsewhere.

@@ -133,7 +133,7 @@ config! {
         tessellation_max_level: u32 = 13u32, integer(0, 13), "halvings", "finest subdivision of an edge";
         vertex_budget: u32 = 1_200_000u32, integer(1_000, 2_000_000), "vertices", "room for tessellated vertices in a frame";
         min_width: f64 = 1.0, number(0.0, 4.0), "pixels", "thinner triangles of thin images are drawn this wide, with their coverage as alpha; 0 turns that off";
-        thin_below: f64 = 1.0, number(0.0, 100.0), "pixels", "images narrower than this are thin ones";
+        thin_below: f64 = 2.0, number(0.0, 100.0), "pixels", "images narrower than this are thin ones";
         coarse_below: f64 = 0.0, number(0.0, 100.0), "pixels", "images narrower than this show a coarse stand-in, which is off by more than the error budget";
         least_width: f64 = 0.05, number(0.0, 10.0), "pixels", "images of order 2 and 3 narrower than this are left out";
         doppler: bool = true, Switch, "", "frequency shift of all light";

@@ -4,7 +4,7 @@
 //! single ray tells nothing: there the judge looks through places drawn at random, in rounds that do not know of each other, and the
 //! scatter of the rounds is its noise. It goes on for as long as that leaves a doubt.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use glam::DVec3;
 use rand::rngs::StdRng;
@@ -12,6 +12,7 @@ use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
 use super::grid::Grid;
+use super::metrics::drawn_by_centres;
 use super::probe::LightProbe;
 use crate::compare::ContestantFrame;
 use crate::compare::deadline::Deadline;
@@ -30,6 +31,8 @@ pub struct Light {
     pub name: String,
     /// Linear RGB, summed over pixels: to the judge.
     pub judge: DVec3,
+    /// The same, but at outlines that may be shown by one ray a pixel by the judge's own one ray a pixel.
+    pub by_centres: DVec3,
     /// The same as it is shown.
     pub shown: DVec3,
     /// Standard deviation of the judge's sums.
@@ -60,9 +63,10 @@ impl Light {
         (sum * limits.light).max(limits.thin * (self.noise * self.noise + self.outline * self.outline).map(f64::sqrt)) + self.mixed * MIXED
     }
 
-    /// How far it is off, in units of what is allowed.
+    /// How far it is off, in units of what is allowed. Both may be off where pixels' centres meet more of an outline, or less.
     fn excess(&self, limits: &Limits) -> f64 {
-        ((self.shown - self.judge).abs() / self.allowed(limits).max(DVec3::splat(1e-12))).max_element()
+        let allowed = self.allowed(limits).max(DVec3::splat(1e-12));
+        [self.judge, self.by_centres].map(|judge| ((self.shown - judge).abs() / allowed).max_element()).into_iter().fold(f64::MAX, f64::min)
     }
 
     /// Whether it is a part of the picture's light that counts.
@@ -105,6 +109,8 @@ const SURE: f64 = 2.0;
 const SIDE: u32 = 2;
 /// Rounds at first, at least: their scatter is the noise.
 pub const LEAST_ROUNDS: u32 = 2;
+/// Rays of those rounds in a pixel.
+const LEAST_RAYS: usize = (LEAST_ROUNDS * SIDE * SIDE) as usize;
 /// Most rounds: 512 rays a pixel.
 const MOST_ROUNDS: u32 = 128;
 /// Most rays for a picture.
@@ -127,6 +133,14 @@ pub fn lights(
     let mut sampled = pair.look_closely(probe, rounds.max(LEAST_ROUNDS), deadline);
     loop {
         let lights = pair.add_up(&sampled, names);
+        // The centres of pixels tell little of a texture that is finer than they.
+        let faulty: BTreeSet<Image> = lights.iter().filter(|light| light.fault(limits).is_some()).map(|light| light.image).collect();
+        let unseen: Vec<usize> =
+            (0..judge.layers.len()).filter(|i| faulty.contains(&pair.judged(*i)) && !sampled.contains_key(i)).collect();
+        if !unseen.is_empty() && unseen.len() * LEAST_RAYS < MOST_RAYS && !deadline.is_over() {
+            sampled.par_extend(unseen.into_par_iter().map(|i| (i, pair.rounds(probe, i, 0, rounds.max(LEAST_ROUNDS)))));
+            continue;
+        }
         let doubtful: BTreeSet<Image> = lights.iter().filter(|light| light.is_doubtful(limits)).map(|light| light.image).collect();
         let is_doubtful = |image: Image| doubtful.contains(&image) || doubtful.contains(&(image.0, TOGETHER));
         let again: Vec<usize> = sampled
@@ -210,6 +224,8 @@ struct Pair<'a> {
     core: Vec<Option<Image>>,
     /// Images that are wide at most of their pixels: narrow are their tips alone, which pixels' centres may meet or miss.
     wide: BTreeSet<Image>,
+    /// Images that the contestant draws by pixels' centres.
+    by_centres: HashSet<Image>,
 }
 
 impl<'a> Pair<'a> {
@@ -219,7 +235,7 @@ impl<'a> Pair<'a> {
         let core = (0..judge.layers.len())
             .map(|i| Some(image(i)).filter(|image_here| image_here.0 > 0 && grid.around(i).iter().all(|&j| image(j) == *image_here)))
             .collect();
-        let mut pair = Pair { judge, frame, grid, core, wide: BTreeSet::new() };
+        let mut pair = Pair { judge, frame, grid, core, wide: BTreeSet::new(), by_centres: drawn_by_centres(frame) };
         let mut counts: BTreeMap<Image, [usize; 2]> = BTreeMap::new();
         for i in (0..judge.layers.len()).filter(|&i| image(i).0 > 0) {
             let [all, wide] = counts.entry(image(i)).or_default();
@@ -299,7 +315,17 @@ impl<'a> Pair<'a> {
         let mut of = |image: Image, change: &dyn Fn(&mut Light)| {
             let name = || names.get((image.0 as usize).wrapping_sub(1)).cloned().unwrap_or_else(|| "?".into());
             let zero = DVec3::ZERO;
-            let new = || Light { image, name: name(), judge: zero, shown: zero, noise: zero, outline: zero, mixed: zero, picture };
+            let new = || Light {
+                image,
+                name: name(),
+                judge: zero,
+                by_centres: zero,
+                shown: zero,
+                noise: zero,
+                outline: zero,
+                mixed: zero,
+                picture,
+            };
             change(found.entry(image).or_insert_with(new));
         };
         let mut least: BTreeMap<Image, DVec3> = BTreeMap::new();
@@ -307,7 +333,10 @@ impl<'a> Pair<'a> {
             let layer = &self.judge.layers[i];
             let Some(pixel) = sampled.get(&i) else {
                 if layer.object > 0 {
-                    of((layer.object, layer.order), &|light| light.judge += vector(layer.light));
+                    of((layer.object, layer.order), &|light| {
+                        light.judge += vector(layer.light);
+                        light.by_centres += vector(layer.light);
+                    });
                 }
                 if self.frame.shown[i].object > 0 {
                     of(self.frame.shown[i].image(), &|light| light.shown += vector(self.frame.surfaces[i]));
@@ -328,10 +357,19 @@ impl<'a> Pair<'a> {
             for image in pixel.met.keys().copied() {
                 let by_centre = self.frame.shown[i].coverage == 1.0 || self.frame.shown[i].object == 0;
                 let around = || self.grid.around(i).into_iter().map(|j| self.part_at(j, image, sampled)).sum::<f64>();
-                let may_be_rough = by_centre && (self.wide.contains(&image) || around() > HALF_A_PIXEL_WIDE);
+                // Where all rays meet it no outline is near.
+                let is_outline = pixel.part(image) < 1.0;
+                let may_be_rough = is_outline && by_centre && (self.wide.contains(&image) || around() > HALF_A_PIXEL_WIDE);
+                let is_at_centre = self.judged(i) == image;
+                let by_centres = match may_be_rough {
+                    true if is_at_centre => vector(layer.light),
+                    true => DVec3::ZERO,
+                    false => pixel.light(image),
+                };
                 // Kept as variances for now.
                 of(image, &|light| {
                     light.judge += pixel.light(image);
+                    light.by_centres += by_centres;
                     light.noise += pixel.variance(image);
                     light.outline += if may_be_rough { pixel.ray_variance(image) } else { DVec3::ZERO };
                 });
@@ -361,10 +399,11 @@ impl<'a> Pair<'a> {
         if shown.coverage >= 1.0 {
             return vec![(shown.image(), light)];
         }
-        let is_thin = |image: Image| image == shown.image() || !self.is_wide(i, image);
+        let is_thin = |image: Image| !self.by_centres.contains(&image);
         let mut parts = Vec::new();
         let mut rest = light;
-        if let Some(pixel) = sampled.get(&i) {
+        let judged = self.judged(i);
+        if let Some(pixel) = sampled.get(&i).filter(|_| judged.0 > 0 && is_thin(judged)) {
             let thin: f64 = pixel.met.keys().filter(|image| is_thin(**image)).map(|image| pixel.part(*image)).sum();
             for image in pixel.met.keys().copied().filter(|image| !is_thin(*image)) {
                 let free = (1.0 - thin).max(pixel.part(image));
@@ -372,6 +411,11 @@ impl<'a> Pair<'a> {
                 rest -= behind;
                 parts.push((image, behind));
             }
+        } else if judged.0 > 0 {
+            // It is shown where it is in a pixel's centre.
+            let behind = (vector(self.judge.layers[i].light) * (1.0 - f64::from(shown.coverage))).min(rest);
+            rest -= behind;
+            parts.push((judged, behind));
         }
         let mut near: BTreeMap<Image, DVec3> = BTreeMap::new();
         for pixel in self.grid.around(i).iter().filter_map(|j| sampled.get(j)) {
@@ -396,6 +440,7 @@ fn together<'l>(lights: impl Iterator<Item = &'l Light> + Clone) -> Vec<Light> {
     let sum = |object: u32| {
         lights.clone().filter(|light| light.image.0 == object).cloned().reduce(|a, b| Light {
             judge: a.judge + b.judge,
+            by_centres: a.by_centres + b.by_centres,
             shown: a.shown + b.shown,
             noise: root(a.noise, b.noise),
             outline: root(a.outline, b.outline),

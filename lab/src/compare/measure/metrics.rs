@@ -364,7 +364,7 @@ fn thin_images(judge: &TracedPicture, frame: &ContestantFrame, grid: &Grid) -> H
 
 /// Objects and orders that the contestant shows, and nowhere by coverage. It shows what it meets at the centre of each pixel, so that a
 /// line along a row of pixels is there in all of them or in none: the judge's single rays tell whether it is right, and more rays do not.
-fn drawn_by_centres(frame: &ContestantFrame) -> HashSet<Image> {
+pub(super) fn drawn_by_centres(frame: &ContestantFrame) -> HashSet<Image> {
     let images = |by_coverage: bool| {
         let drawn = move |coverage: f32| (coverage < 1.0) == by_coverage;
         frame.shown.iter().filter(move |shown| shown.object > 0 && drawn(shown.coverage)).map(Shown::image)

@@ -9,6 +9,8 @@ use lensrunner_lab::contestant::GameContestant;
 /// All faults but those of light: ships in thin images are beyond that limit, as docs/lab/verdict.md says.
 #[test]
 fn scenes_that_failed_once_are_right() {
+    // Three of them are up to twice as far off as is allowed (docs/lab/verdict.md), and sums of thin images vary a little from run to run.
+    const LIGHT_OFF: f64 = 3.0;
     let folder = crate::support::root().join("tests/scenes");
     let contestant = GameContestant::default();
     let paths = files(&[folder]).unwrap();
@@ -20,7 +22,7 @@ fn scenes_that_failed_once_are_right() {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         match judged {
             Ok(judged) => {
-                let faults = judged.faults.iter().filter(|fault| fault.kind != Kind::Light);
+                let faults = judged.faults.iter().filter(|fault| fault.kind != Kind::Light || fault.excess > LIGHT_OFF);
                 wrong.extend(faults.map(|fault| format!("{name}: {}: {fault}", fault.kind)));
             }
             Err(gave_up) => wrong.push(format!("{name}: {gave_up}")),
