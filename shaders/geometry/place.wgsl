@@ -203,7 +203,8 @@ const PLACES: u32 = 32u;
 /// Least radius, in r_s, of points that send light to a camera outside: of those of bounds, and of the extent.
 const LEAST_RADIUS: f32 = 1.0001;
 const LEAST_LOW_SIDE: f32 = 1.001;
-/// As in src/render/instances/mod.rs: least size of a thin image for its stand-in, roundings of a point and of what is put beside them, widths in pixels, and strictness.
+/// As in src/render/instances/mod.rs: least size of a thin image for its stand-in, roundings of a point and of what is put beside them,
+/// widths in pixels, and strictness.
 const THIN_SIZE: f32 = 8.0;
 const BESIDE: f32 = 4.0;
 const ROUNDING: f32 = 4e-7;

@@ -1,8 +1,9 @@
 //! The light that each image of each object adds to the picture, to the judge and as it is shown.
 //!
-//! Where an image is wide both look through the centres of pixels, so their sums are set side by side as they are. Where it is narrow a
-//! single ray tells nothing: there the judge looks through places drawn at random, in rounds that do not know of each other, and the
-//! scatter of the rounds is its noise. It goes on for as long as that leaves a doubt.
+//! Where an image is wide both look through the centres of pixels, so their sums are set side by side as they are; if they differ too much,
+//! a texture may be finer than the pixels. There, and where an image is narrow, a single ray tells nothing: the judge looks through places
+//! drawn at random, in rounds that do not know of each other, and the scatter of the rounds is its noise. It goes on for as long as that
+//! leaves a doubt.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -11,8 +12,8 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
+use super::drawn::{drawn_by_centres, drawn_by_coverage};
 use super::grid::Grid;
-use super::metrics::drawn_by_centres;
 use super::probe::LightProbe;
 use crate::compare::ContestantFrame;
 use crate::compare::deadline::Deadline;
@@ -31,14 +32,10 @@ pub struct Light {
     pub name: String,
     /// Linear RGB, summed over pixels: to the judge.
     pub judge: DVec3,
-    /// The same, but at outlines that may be shown by one ray a pixel by the judge's own one ray a pixel.
-    pub by_centres: DVec3,
     /// The same as it is shown.
     pub shown: DVec3,
     /// Standard deviation of the judge's sums.
     pub noise: DVec3,
-    /// Standard deviation of a right picture's sums that shows each outline by one ray a pixel.
-    pub outline: DVec3,
     /// What of it is shown in pixels with thin images of the same object of other orders: how that is shared is not known.
     pub mixed: DVec3,
     /// The light of the whole picture.
@@ -60,13 +57,12 @@ impl Light {
     fn allowed(&self, limits: &Limits) -> DVec3 {
         let strongest = self.judge.max_element();
         let sum = self.judge.max(DVec3::splat(LEAST_CHANNEL * strongest));
-        (sum * limits.light).max(limits.thin * (self.noise * self.noise + self.outline * self.outline).map(f64::sqrt)) + self.mixed * MIXED
+        (sum * limits.light).max(limits.thin * self.noise) + self.mixed * MIXED
     }
 
-    /// How far it is off, in units of what is allowed. Both may be off where pixels' centres meet more of an outline, or less.
+    /// How far it is off, in units of what is allowed.
     fn excess(&self, limits: &Limits) -> f64 {
-        let allowed = self.allowed(limits).max(DVec3::splat(1e-12));
-        [self.judge, self.by_centres].map(|judge| ((self.shown - judge).abs() / allowed).max_element()).into_iter().fold(f64::MAX, f64::min)
+        ((self.shown - self.judge).abs() / self.allowed(limits).max(DVec3::splat(1e-12))).max_element()
     }
 
     /// Whether it is a part of the picture's light that counts.
@@ -109,13 +105,11 @@ const SURE: f64 = 2.0;
 const SIDE: u32 = 2;
 /// Rounds at first, at least: their scatter is the noise.
 pub const LEAST_ROUNDS: u32 = 2;
-/// Rays of those rounds in a pixel.
-const LEAST_RAYS: usize = (LEAST_ROUNDS * SIDE * SIDE) as usize;
 /// Most rounds: 512 rays a pixel.
 const MOST_ROUNDS: u32 = 128;
 /// Most rays for a picture.
 const MOST_RAYS: usize = 400_000;
-/// An image that covers more than this of the nine pixels around may be drawn by pixels' centres: a line half a pixel wide does.
+/// An image that covers more than this of the nine pixels around is right if it is drawn by pixels' centres: a line half a pixel wide does.
 const HALF_A_PIXEL_WIDE: f64 = 1.5;
 
 /// Adds the images' light up. `names` has the name of each object by number, from 1; narrow images are looked at in so many `rounds` at
@@ -135,10 +129,13 @@ pub fn lights(
         let lights = pair.add_up(&sampled, names);
         // The centres of pixels tell little of a texture that is finer than they.
         let faulty: BTreeSet<Image> = lights.iter().filter(|light| light.fault(limits).is_some()).map(|light| light.image).collect();
-        let unseen: Vec<usize> =
-            (0..judge.layers.len()).filter(|i| faulty.contains(&pair.judged(*i)) && !sampled.contains_key(i)).collect();
-        if !unseen.is_empty() && unseen.len() * LEAST_RAYS < MOST_RAYS && !deadline.is_over() {
-            sampled.par_extend(unseen.into_par_iter().map(|i| (i, pair.rounds(probe, i, 0, rounds.max(LEAST_ROUNDS)))));
+        let is_faulty = |image: Image| faulty.contains(&image) || faulty.contains(&(image.0, TOGETHER));
+        let of_faulty = (0..judge.layers.len()).filter(|i| is_faulty(pair.judged(*i))).flat_map(|i| pair.grid.around(i));
+        let unseen: BTreeSet<usize> = of_faulty.filter(|i| !sampled.contains_key(i)).collect();
+        let spent: u32 = sampled.values().map(|pixel| pixel.rounds * SIDE * SIDE).sum();
+        let first = rounds.max(LEAST_ROUNDS);
+        if !unseen.is_empty() && spent as usize + unseen.len() * (first * SIDE * SIDE) as usize <= MOST_RAYS && !deadline.is_over() {
+            sampled.extend(unseen.into_par_iter().map(|i| (i, pair.rounds(probe, i, 0, first))).collect::<Vec<_>>());
             continue;
         }
         let doubtful: BTreeSet<Image> = lights.iter().filter(|light| light.is_doubtful(limits)).map(|light| light.image).collect();
@@ -177,8 +174,6 @@ struct Met {
     light: DVec3,
     /// The squares of that.
     squares: DVec3,
-    /// The squares of the light of single rays.
-    ray_squares: DVec3,
 }
 
 impl Sampled {
@@ -187,7 +182,7 @@ impl Sampled {
         for (image, met) in more.met {
             let sum = self.met.entry(image).or_default();
             (sum.part, sum.light) = (sum.part + met.part, sum.light + met.light);
-            (sum.squares, sum.ray_squares) = (sum.squares + met.squares, sum.ray_squares + met.ray_squares);
+            sum.squares += met.squares;
         }
     }
 
@@ -197,12 +192,6 @@ impl Sampled {
 
     fn light(&self, image: Image) -> DVec3 {
         self.met.get(&image).map_or(DVec3::ZERO, |met| met.light / f64::from(self.rounds))
-    }
-
-    /// The variance of the light of one ray.
-    fn ray_variance(&self, image: Image) -> DVec3 {
-        let mean = self.light(image);
-        self.met.get(&image).map_or(DVec3::ZERO, |met| (met.ray_squares / f64::from(self.rounds) - mean * mean).max(DVec3::ZERO))
     }
 
     /// The variance of the mean of all.
@@ -224,8 +213,9 @@ struct Pair<'a> {
     core: Vec<Option<Image>>,
     /// Images that are wide at most of their pixels: narrow are their tips alone, which pixels' centres may meet or miss.
     wide: BTreeSet<Image>,
-    /// Images that the contestant draws by pixels' centres.
+    /// Images that the contestant draws by pixels' centres, and those that it draws by coverage.
     by_centres: HashSet<Image>,
+    by_coverage: HashSet<Image>,
 }
 
 impl<'a> Pair<'a> {
@@ -235,7 +225,15 @@ impl<'a> Pair<'a> {
         let core = (0..judge.layers.len())
             .map(|i| Some(image(i)).filter(|image_here| image_here.0 > 0 && grid.around(i).iter().all(|&j| image(j) == *image_here)))
             .collect();
-        let mut pair = Pair { judge, frame, grid, core, wide: BTreeSet::new(), by_centres: drawn_by_centres(frame) };
+        let mut pair = Pair {
+            judge,
+            frame,
+            grid,
+            core,
+            wide: BTreeSet::new(),
+            by_centres: drawn_by_centres(frame),
+            by_coverage: drawn_by_coverage(frame),
+        };
         let mut counts: BTreeMap<Image, [usize; 2]> = BTreeMap::new();
         for i in (0..judge.layers.len()).filter(|&i| image(i).0 > 0) {
             let [all, wide] = counts.entry(image(i)).or_default();
@@ -285,19 +283,19 @@ impl<'a> Pair<'a> {
         let mut sampled = Sampled { rounds, ..Sampled::default() };
         for round in before..before + rounds {
             let mut chance = StdRng::seed_from_u64((i as u64) << 32 | u64::from(round));
-            let mut met: BTreeMap<Image, (f64, DVec3, DVec3)> = BTreeMap::new();
+            let mut met: BTreeMap<Image, (f64, DVec3)> = BTreeMap::new();
             for k in 0..SIDE * SIDE {
                 let [across, down] = [k % SIDE, k / SIDE].map(|step| (f64::from(step) + chance.random::<f64>()) / f64::from(SIDE));
                 if let Some(lit) = probe.lit(x + across, y + down) {
-                    let (part, light, ray_squares) = met.entry(lit.image).or_default();
-                    let (weight, here) = (1.0 / f64::from(SIDE * SIDE), lit.light.as_dvec3());
-                    (*part, *light, *ray_squares) = (*part + weight, *light + here * weight, *ray_squares + here * here * weight);
+                    let (part, light) = met.entry(lit.image).or_default();
+                    let weight = 1.0 / f64::from(SIDE * SIDE);
+                    (*part, *light) = (*part + weight, *light + lit.light.as_dvec3() * weight);
                 }
             }
-            for (image, (part, light, ray_squares)) in met {
+            for (image, (part, light)) in met {
                 let sum = sampled.met.entry(image).or_default();
                 (sum.part, sum.light) = (sum.part + part, sum.light + light);
-                (sum.squares, sum.ray_squares) = (sum.squares + light * light, sum.ray_squares + ray_squares);
+                sum.squares += light * light;
             }
         }
         sampled
@@ -315,17 +313,7 @@ impl<'a> Pair<'a> {
         let mut of = |image: Image, change: &dyn Fn(&mut Light)| {
             let name = || names.get((image.0 as usize).wrapping_sub(1)).cloned().unwrap_or_else(|| "?".into());
             let zero = DVec3::ZERO;
-            let new = || Light {
-                image,
-                name: name(),
-                judge: zero,
-                by_centres: zero,
-                shown: zero,
-                noise: zero,
-                outline: zero,
-                mixed: zero,
-                picture,
-            };
+            let new = || Light { image, name: name(), judge: zero, shown: zero, noise: zero, mixed: zero, picture };
             change(found.entry(image).or_insert_with(new));
         };
         let mut least: BTreeMap<Image, DVec3> = BTreeMap::new();
@@ -333,10 +321,7 @@ impl<'a> Pair<'a> {
             let layer = &self.judge.layers[i];
             let Some(pixel) = sampled.get(&i) else {
                 if layer.object > 0 {
-                    of((layer.object, layer.order), &|light| {
-                        light.judge += vector(layer.light);
-                        light.by_centres += vector(layer.light);
-                    });
+                    of((layer.object, layer.order), &|light| light.judge += vector(layer.light));
                 }
                 if self.frame.shown[i].object > 0 {
                     of(self.frame.shown[i].image(), &|light| light.shown += vector(self.frame.surfaces[i]));
@@ -354,33 +339,35 @@ impl<'a> Pair<'a> {
                 let least = least.entry(image).or_default();
                 *least = one.max(*least);
             }
-            for image in pixel.met.keys().copied() {
-                let by_centre = self.frame.shown[i].coverage == 1.0 || self.frame.shown[i].object == 0;
-                let around = || self.grid.around(i).into_iter().map(|j| self.part_at(j, image, sampled)).sum::<f64>();
-                // Where all rays meet it no outline is near.
-                let is_outline = pixel.part(image) < 1.0;
-                let may_be_rough = is_outline && by_centre && (self.wide.contains(&image) || around() > HALF_A_PIXEL_WIDE);
-                let is_at_centre = self.judged(i) == image;
-                let by_centres = match may_be_rough {
-                    true if is_at_centre => vector(layer.light),
-                    true => DVec3::ZERO,
-                    false => pixel.light(image),
-                };
+            for image in self.images_at(i, pixel).collect::<BTreeSet<Image>>() {
+                let (light, variance) = self.expected(i, image, sampled);
                 // Kept as variances for now.
-                of(image, &|light| {
-                    light.judge += pixel.light(image);
-                    light.by_centres += by_centres;
-                    light.noise += pixel.variance(image);
-                    light.outline += if may_be_rough { pixel.ray_variance(image) } else { DVec3::ZERO };
-                });
+                of(image, &|sum| (sum.judge, sum.noise) = (sum.judge + light, sum.noise + variance));
             }
         }
         for (image, light) in &mut found {
             let least = least.get(image).copied().unwrap_or_default();
-            (light.noise, light.outline) = ((light.noise + least * least).map(f64::sqrt), light.outline.map(f64::sqrt));
+            light.noise = (light.noise + least * least).map(f64::sqrt);
         }
         let together = together(found.values());
         found.into_values().chain(together).collect()
+    }
+
+    /// The light of an image that a right picture shows in a pixel that was looked at closely, and its variance: that of all rays; or at
+    /// outlines that may be drawn by pixels' centres all or nothing. There what differs is counted elsewhere, and told by no light.
+    fn expected(&self, i: usize, image: Image, sampled: &BTreeMap<usize, Sampled>) -> (DVec3, DVec3) {
+        let (pixel, shown) = (&sampled[&i], &self.frame.shown[i]);
+        let part = pixel.part(image);
+        let around = || self.grid.around(i).into_iter().map(|j| self.part_at(j, image, sampled)).sum::<f64>();
+        let by_centre = !self.by_coverage.contains(&image) && (shown.coverage >= 1.0 || shown.object == 0);
+        if !(by_centre && part < 1.0 && (self.wide.contains(&image) || around() > HALF_A_PIXEL_WIDE)) {
+            return (pixel.light(image), pixel.variance(image));
+        }
+        match (self.judged(i) == image, shown.image() == image) {
+            (true, true) if part > 0.0 => (pixel.light(image) / part, pixel.variance(image) / (part * part)),
+            (_, true) => (vector(self.frame.surfaces[i]), DVec3::ZERO),
+            (_, false) => (DVec3::ZERO, DVec3::ZERO),
+        }
     }
 
     /// The part of a pixel that the judge sees an image in.
@@ -440,10 +427,8 @@ fn together<'l>(lights: impl Iterator<Item = &'l Light> + Clone) -> Vec<Light> {
     let sum = |object: u32| {
         lights.clone().filter(|light| light.image.0 == object).cloned().reduce(|a, b| Light {
             judge: a.judge + b.judge,
-            by_centres: a.by_centres + b.by_centres,
             shown: a.shown + b.shown,
             noise: root(a.noise, b.noise),
-            outline: root(a.outline, b.outline),
             ..a
         })
     };

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::area::{Area, areas};
 use super::displacement::{Effort, Measured, Probe, displacements};
+use super::drawn::{drawn_by_centres, drawn_by_coverage};
 use super::light::Light;
 pub use crate::compare::fault::Limits;
 use crate::compare::{ContestantFrame, Shown};
@@ -103,18 +104,26 @@ pub fn compare_with(
         found.count_wrong_light(&pair, &pixel);
         found.count_rims(&pair, &pixel);
         found.count_thin(&pair, &pixel);
+        found.count_misplaced(&pair, &pixel);
         found.count_judged(&pair, &pixel, difference, &measured);
         found.count_shown(&pair, &pixel);
     }
     // What is narrower than the way between two rays is drawn a pixel wide and more, around rays that all missed it.
-    let lit = confirmed(&found.lit, |i| all_around(pair.grid.place(i), |x, y| probe.is_dark(x, y)));
+    let lit = confirmed(&found.lit, |i| all_around(pair.grid.place(i), |x, y| probe.is_dark(x, y))).len();
     let wrong_beyond_rim = confirmed(&found.wrong_beyond_rim, |i| {
         let shown = frame.shown[i].image();
         all_around(pair.grid.place(i), |x, y| probe.at(x, y).is_none_or(|point| (point.object, point.order) != shown))
-    });
+    })
+    .len();
+    for i in confirmed(&found.misplaced, |i| {
+        let shown = frame.shown[i].image();
+        all_around(pair.grid.place(i), |x, y| probe.at(x, y).is_none_or(|point| (point.object, point.order) != shown))
+    }) {
+        found.tally(&pair, frame.shown[i].image()).mismatch(false);
+    }
     let groups = found.tallies.into_iter().map(|((name, order), tally)| tally.group(name, order, width)).collect();
     let flip = difference.iter().map(|d| f64::from(*d)).sum::<f64>() / difference.len().max(1) as f64;
-    let areas = areas(judge, frame, names, &|object, order| pair.is_thin((object, order)));
+    let areas = areas(judge, frame, names, &|object, order| pair.is_thin((object, order)) && !pair.by_centres.contains(&(object, order)));
     let lights = Vec::new();
     Verdict {
         groups,
@@ -224,6 +233,8 @@ struct Found<'a> {
     holes: usize,
     /// Pixels with light where the judge seems to see the shadow all around.
     lit: Vec<usize>,
+    /// Pixels that a thin image covers to a good part, and that the judge does not seem to see it near.
+    misplaced: Vec<usize>,
     displaced: Vec<f32>,
 }
 
@@ -279,10 +290,19 @@ impl<'a> Found<'a> {
         if pair.is_thin_by_centres(shown) {
             self.tally(pair, shown).thin[1] += 1.0;
         } else if pixel.shown.object > 0 && pair.is_thin(shown) {
-            let is_thin = |object: u32, order: u32| pair.is_thin((object, order));
+            let is_thin = |object: u32, order: u32| pair.is_thin((object, order)) && !pair.by_centres.contains(&(object, order));
             for (image, part) in pair.grid.thin_parts(&pair.judge.shares, pixel.i, shown, &is_thin) {
                 self.tally(pair, image).thin[1] += f64::from(pixel.shown.coverage) * part;
             }
+        }
+    }
+
+    /// Counts thin images that are not near where the judge sees them. What they cover of a pixel is compared over the whole picture alone.
+    fn count_misplaced(&mut self, pair: &Pair<'a>, pixel: &Pixel) {
+        let shown = pixel.shown.image();
+        let is_there = pixel.shown.object > 0 && pair.is_thin(shown) && pixel.shown.coverage > FAINT;
+        if is_there && !pixel.around.iter().any(|&j| pair.has_share(j, shown)) {
+            self.misplaced.push(pixel.i);
         }
     }
 
@@ -323,10 +343,10 @@ const MOST_DOUBTED: usize = 32;
 /// Rays along each side of a pixel then: an image a hundredth of a pixel wide that crosses three of them is met by seven in the mean.
 const DOUBT: u32 = 15;
 
-/// How many of these pixels are as wrong as they seem when they are looked at again.
-fn confirmed(pixels: &[usize], is_wrong: impl Fn(usize) -> bool + Sync) -> usize {
-    let again = pixels.len().min(MOST_DOUBTED);
-    pixels.len() - again + pixels[..again].par_iter().filter(|&&i| is_wrong(i)).count()
+/// Those of these pixels that are as wrong as they seem when they are looked at again.
+fn confirmed(pixels: &[usize], is_wrong: impl Fn(usize) -> bool + Sync) -> Vec<usize> {
+    let (again, others) = pixels.split_at(pixels.len().min(MOST_DOUBTED));
+    again.par_iter().copied().filter(|&i| is_wrong(i)).chain(others.par_iter().copied()).collect()
 }
 
 /// Whether this holds for many rays through a pixel, of which the upper left corner is given, and those around it.
@@ -355,24 +375,14 @@ fn thin_images(judge: &TracedPicture, frame: &ContestantFrame, grid: &Grid) -> H
         }
     }
     let nowhere = counts.iter().filter(|(_, [_, filled])| *filled == 0).map(|(key, _)| *key);
-    let by_coverage = frame.shown.iter().filter(|shown| shown.object > 0 && shown.coverage < 1.0).map(Shown::image);
     // What not one sample of the judge has met is narrow for sure.
     let is_rare = |[touched, filled]: &[usize; 2]| *filled <= FEW || MOSTLY * filled < *touched;
-    let hardly = by_coverage.filter(|key| !wide.contains(key) || counts.get(key).is_none_or(is_rare));
+    let hardly = drawn_by_coverage(frame).into_iter().filter(|key| !wide.contains(key) || counts.get(key).is_none_or(is_rare));
     nowhere.chain(hardly).collect()
 }
 
-/// Objects and orders that the contestant shows, and nowhere by coverage. It shows what it meets at the centre of each pixel, so that a
-/// line along a row of pixels is there in all of them or in none: the judge's single rays tell whether it is right, and more rays do not.
-pub(super) fn drawn_by_centres(frame: &ContestantFrame) -> HashSet<Image> {
-    let images = |by_coverage: bool| {
-        let drawn = move |coverage: f32| (coverage < 1.0) == by_coverage;
-        frame.shown.iter().filter(move |shown| shown.object > 0 && drawn(shown.coverage)).map(Shown::image)
-    };
-    let by_coverage: HashSet<_> = images(true).collect();
-    images(false).filter(|image| !by_coverage.contains(image)).collect()
-}
-
+/// A thin image may be anywhere in the pixels that it covers less of than this: what is so narrow may lie between the judge's rays.
+const FAINT: f32 = 0.1;
 /// What fills no more pixels than this is nowhere two pixels wide.
 const FEW: usize = 1;
 /// One in so many pixels filled is still narrow: of a line one pixel wide, across any grid, none to a third is.

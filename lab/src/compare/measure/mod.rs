@@ -4,10 +4,11 @@
 //! - [`displacement`]: where the judge sees the surface point that the contestant shows at a pixel.
 //! - [`probe`]: what the judge sees between the pixels; [`sight`]: where it sees a point, hidden or not.
 //! - [`narrow`]: images narrower than a pixel, seen with more rays.
-//! - [`area`]: how large each image is; [`light`]: how bright; `grid`: the rays of a pixel.
+//! - [`area`]: how large each image is; [`light`]: how bright; `grid`: the rays of a pixel; `drawn`: how images are drawn.
 
 pub mod area;
 pub mod displacement;
+mod drawn;
 mod grid;
 pub mod light;
 pub mod metrics;

@@ -325,6 +325,10 @@ triangles = 20
     for factor in [0.0, 2.0] {
         tells(&faults(&case, &judge, &drawn(factor)), &["thin images cover"]);
     }
+    // The right areas in a wrong place.
+    let mut moved = drawn(1.0);
+    moved.shown.rotate_right(4);
+    tells(&faults(&case, &judge, &moved), &["pixels differ"]);
 }
 
 #[test]
