@@ -42,11 +42,11 @@ pub fn table(verdict: &Verdict, limits: &Limits, faults: &[String]) -> String {
     for light in verdict.lights.iter().filter(|light| light.image.1 <= limits.orders) {
         let [shown, judge] = [light.shown, light.judge].map(|light| light.element_sum() / 3.0);
         let part = |light: DVec3| 100.0 * light.element_sum() / 3.0 / judge.max(1e-12);
-        let noise = part(light.noise);
+        let (noise, one_ray) = (part(light.noise), part(light.one_ray));
         let (who, ratio, of_all) = (light.who(), shown / judge, judge / light.picture.element_sum() * 3.0);
         let _ = writeln!(
             text,
-            "light of {who}: {shown:.4}, by the judge {judge:.4} ± {noise:.1} %: ratio {ratio:.3}; {:.1} % of the picture's",
+            "light of {who}: {shown:.4}, by the judge {judge:.4} ± {noise:.1} % (by one ray a pixel: ± {one_ray:.1} %): ratio {ratio:.3}; {:.1} % of the picture's",
             100.0 * of_all
         );
     }

@@ -32,12 +32,16 @@ pub struct Light {
     pub name: String,
     /// Linear RGB, summed over pixels: to the judge.
     pub judge: DVec3,
+    /// The same, but by the judge's rays through pixels' centres wherever the image may be drawn by these.
+    pub by_centres: DVec3,
     /// The same as it is shown.
     pub shown: DVec3,
     /// Standard deviation of the judge's sums.
     pub noise: DVec3,
     /// What of it is shown in pixels with thin images of the same object of other orders: how that is shared is not known.
     pub mixed: DVec3,
+    /// Standard deviation of a right picture's sums that shows by one ray a pixel what may be drawn so.
+    pub one_ray: DVec3,
     /// The light of the whole picture.
     pub picture: DVec3,
 }
@@ -57,12 +61,17 @@ impl Light {
     fn allowed(&self, limits: &Limits) -> DVec3 {
         let strongest = self.judge.max_element();
         let sum = self.judge.max(DVec3::splat(LEAST_CHANNEL * strongest));
-        (sum * limits.light).max(limits.thin * self.noise) + self.mixed * MIXED
+        (sum * limits.light).max(limits.thin * root(self.noise, self.one_ray)) + self.mixed * MIXED
     }
 
-    /// How far it is off, in units of what is allowed.
+    /// How far it is off, in units of what is allowed. The judge's own rays through pixels' centres meet the same parts as a picture that is
+    /// drawn by these: against them no chance is allowed.
     fn excess(&self, limits: &Limits) -> f64 {
-        ((self.shown - self.judge).abs() / self.allowed(limits).max(DVec3::splat(1e-12))).max_element()
+        let off = |judge: &Light| {
+            let allowed = judge.allowed(limits).max(DVec3::splat(1e-12));
+            ((self.shown - judge.judge).abs() / allowed).max_element()
+        };
+        off(self).min(off(&Light { judge: self.by_centres, one_ray: DVec3::ZERO, ..self.clone() }))
     }
 
     /// Whether it is a part of the picture's light that counts.
@@ -109,7 +118,7 @@ pub const LEAST_ROUNDS: u32 = 2;
 const MOST_ROUNDS: u32 = 128;
 /// Most rays for a picture.
 const MOST_RAYS: usize = 400_000;
-/// An image that covers more than this of the nine pixels around is right if it is drawn by pixels' centres: a line half a pixel wide does.
+/// An image that covers more than this of the nine pixels around may be drawn by pixels' centres: a line half a pixel wide does.
 const HALF_A_PIXEL_WIDE: f64 = 1.5;
 
 /// Adds the images' light up. `names` has the name of each object by number, from 1; narrow images are looked at in so many `rounds` at
@@ -174,6 +183,8 @@ struct Met {
     light: DVec3,
     /// The squares of that.
     squares: DVec3,
+    /// The squares of the light of single rays.
+    ray_squares: DVec3,
 }
 
 impl Sampled {
@@ -182,7 +193,7 @@ impl Sampled {
         for (image, met) in more.met {
             let sum = self.met.entry(image).or_default();
             (sum.part, sum.light) = (sum.part + met.part, sum.light + met.light);
-            sum.squares += met.squares;
+            (sum.squares, sum.ray_squares) = (sum.squares + met.squares, sum.ray_squares + met.ray_squares);
         }
     }
 
@@ -192,6 +203,12 @@ impl Sampled {
 
     fn light(&self, image: Image) -> DVec3 {
         self.met.get(&image).map_or(DVec3::ZERO, |met| met.light / f64::from(self.rounds))
+    }
+
+    /// The variance of the light of one ray.
+    fn ray_variance(&self, image: Image) -> DVec3 {
+        let mean = self.light(image);
+        self.met.get(&image).map_or(DVec3::ZERO, |met| (met.ray_squares / f64::from(self.rounds) - mean * mean).max(DVec3::ZERO))
     }
 
     /// The variance of the mean of all.
@@ -283,19 +300,19 @@ impl<'a> Pair<'a> {
         let mut sampled = Sampled { rounds, ..Sampled::default() };
         for round in before..before + rounds {
             let mut chance = StdRng::seed_from_u64((i as u64) << 32 | u64::from(round));
-            let mut met: BTreeMap<Image, (f64, DVec3)> = BTreeMap::new();
+            let mut met: BTreeMap<Image, (f64, DVec3, DVec3)> = BTreeMap::new();
             for k in 0..SIDE * SIDE {
                 let [across, down] = [k % SIDE, k / SIDE].map(|step| (f64::from(step) + chance.random::<f64>()) / f64::from(SIDE));
                 if let Some(lit) = probe.lit(x + across, y + down) {
-                    let (part, light) = met.entry(lit.image).or_default();
-                    let weight = 1.0 / f64::from(SIDE * SIDE);
-                    (*part, *light) = (*part + weight, *light + lit.light.as_dvec3() * weight);
+                    let (part, light, ray_squares) = met.entry(lit.image).or_default();
+                    let (weight, here) = (1.0 / f64::from(SIDE * SIDE), lit.light.as_dvec3());
+                    (*part, *light, *ray_squares) = (*part + weight, *light + here * weight, *ray_squares + here * here * weight);
                 }
             }
-            for (image, (part, light)) in met {
+            for (image, (part, light, ray_squares)) in met {
                 let sum = sampled.met.entry(image).or_default();
                 (sum.part, sum.light) = (sum.part + part, sum.light + light);
-                sum.squares += light * light;
+                (sum.squares, sum.ray_squares) = (sum.squares + light * light, sum.ray_squares + ray_squares);
             }
         }
         sampled
@@ -313,7 +330,17 @@ impl<'a> Pair<'a> {
         let mut of = |image: Image, change: &dyn Fn(&mut Light)| {
             let name = || names.get((image.0 as usize).wrapping_sub(1)).cloned().unwrap_or_else(|| "?".into());
             let zero = DVec3::ZERO;
-            let new = || Light { image, name: name(), judge: zero, shown: zero, noise: zero, mixed: zero, picture };
+            let new = || Light {
+                image,
+                name: name(),
+                judge: zero,
+                by_centres: zero,
+                shown: zero,
+                noise: zero,
+                one_ray: zero,
+                mixed: zero,
+                picture,
+            };
             change(found.entry(image).or_insert_with(new));
         };
         let mut least: BTreeMap<Image, DVec3> = BTreeMap::new();
@@ -321,7 +348,10 @@ impl<'a> Pair<'a> {
             let layer = &self.judge.layers[i];
             let Some(pixel) = sampled.get(&i) else {
                 if layer.object > 0 {
-                    of((layer.object, layer.order), &|light| light.judge += vector(layer.light));
+                    of((layer.object, layer.order), &|light| {
+                        light.judge += vector(layer.light);
+                        light.by_centres += vector(layer.light);
+                    });
                 }
                 if self.frame.shown[i].object > 0 {
                     of(self.frame.shown[i].image(), &|light| light.shown += vector(self.frame.surfaces[i]));
@@ -340,34 +370,29 @@ impl<'a> Pair<'a> {
                 *least = one.max(*least);
             }
             for image in self.images_at(i, pixel).collect::<BTreeSet<Image>>() {
-                let (light, variance) = self.expected(i, image, sampled);
-                // Kept as variances for now.
-                of(image, &|sum| (sum.judge, sum.noise) = (sum.judge + light, sum.noise + variance));
+                let is_by_centre = self.may_be_by_centre(i, image, sampled);
+                let at_centre = if self.judged(i) == image { vector(layer.light) } else { DVec3::ZERO };
+                of(image, &|light| {
+                    light.judge += pixel.light(image);
+                    light.by_centres += if is_by_centre { at_centre } else { pixel.light(image) };
+                    // Kept as variances for now.
+                    light.noise += pixel.variance(image);
+                    light.one_ray += if is_by_centre { pixel.ray_variance(image) } else { DVec3::ZERO };
+                });
             }
         }
         for (image, light) in &mut found {
             let least = least.get(image).copied().unwrap_or_default();
-            light.noise = (light.noise + least * least).map(f64::sqrt);
+            (light.noise, light.one_ray) = ((light.noise + least * least).map(f64::sqrt), light.one_ray.map(f64::sqrt));
         }
         let together = together(found.values());
         found.into_values().chain(together).collect()
     }
 
-    /// The light of an image that a right picture shows in a pixel that was looked at closely, and its variance: that of all rays; or at
-    /// outlines that may be drawn by pixels' centres all or nothing. There what differs is counted elsewhere, and told by no light.
-    fn expected(&self, i: usize, image: Image, sampled: &BTreeMap<usize, Sampled>) -> (DVec3, DVec3) {
-        let (pixel, shown) = (&sampled[&i], &self.frame.shown[i]);
-        let part = pixel.part(image);
+    /// Whether an image may be drawn by a pixel's centre: by coverage it nowhere is, and it is at least half a pixel wide there.
+    fn may_be_by_centre(&self, i: usize, image: Image, sampled: &BTreeMap<usize, Sampled>) -> bool {
         let around = || self.grid.around(i).into_iter().map(|j| self.part_at(j, image, sampled)).sum::<f64>();
-        let by_centre = !self.by_coverage.contains(&image) && (shown.coverage >= 1.0 || shown.object == 0);
-        if !(by_centre && part < 1.0 && (self.wide.contains(&image) || around() > HALF_A_PIXEL_WIDE)) {
-            return (pixel.light(image), pixel.variance(image));
-        }
-        match (self.judged(i) == image, shown.image() == image) {
-            (true, true) if part > 0.0 => (pixel.light(image) / part, pixel.variance(image) / (part * part)),
-            (_, true) => (vector(self.frame.surfaces[i]), DVec3::ZERO),
-            (_, false) => (DVec3::ZERO, DVec3::ZERO),
-        }
+        !self.by_coverage.contains(&image) && (self.wide.contains(&image) || around() > HALF_A_PIXEL_WIDE)
     }
 
     /// The part of a pixel that the judge sees an image in.
@@ -423,17 +448,23 @@ impl<'a> Pair<'a> {
 /// All orders of each object of which some are mixed.
 fn together<'l>(lights: impl Iterator<Item = &'l Light> + Clone) -> Vec<Light> {
     let mixed: BTreeSet<u32> = lights.clone().filter(|light| light.mixed != DVec3::ZERO).map(|light| light.image.0).collect();
-    let root = |a: DVec3, b: DVec3| (a * a + b * b).map(f64::sqrt);
     let sum = |object: u32| {
         lights.clone().filter(|light| light.image.0 == object).cloned().reduce(|a, b| Light {
             judge: a.judge + b.judge,
+            by_centres: a.by_centres + b.by_centres,
             shown: a.shown + b.shown,
             noise: root(a.noise, b.noise),
+            one_ray: root(a.one_ray, b.one_ray),
             ..a
         })
     };
     let all = mixed.into_iter().filter_map(sum);
     all.map(|light| Light { image: (light.image.0, TOGETHER), mixed: DVec3::ZERO, ..light }).collect()
+}
+
+/// The standard deviation of two that are independent, together.
+fn root(a: DVec3, b: DVec3) -> DVec3 {
+    (a * a + b * b).map(f64::sqrt)
 }
 
 fn vector(rgb: [f32; 3]) -> DVec3 {
