@@ -20,7 +20,7 @@ use crate::fail;
 ///
 /// Displacements are in pixels: mean, 99 of 100, greatest, and how many pixels were counted apart because what they show is magnified
 /// beyond f32. Mismatched pixels are given in per cent of the object's pixels and its rim, and those inside, away from any edge. Thin
-/// images are narrower than a pixel: their area to the judge and as shown.
+/// images are a pixel or two wide: their area to the judge and as shown.
 #[derive(Args)]
 pub struct CompareArgs {
     /// The scene: a TOML file, the name of one in assets/scenes, or `all`: each of those, at T = 0 and some later times. Or the file of a

@@ -81,7 +81,7 @@ pub enum Kind {
     Hole,
     /// The right thing in an image order that is nowhere near.
     Order,
-    /// Images narrower than a pixel cover too much or too little.
+    /// Thin images cover too much or too little.
     Thin,
     /// Too many pixels show something else.
     Differ,

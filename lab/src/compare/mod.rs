@@ -34,7 +34,7 @@ pub struct Shown {
     pub order: u32,
     /// The point of the body's surface, in its own axes and the model's unit.
     pub body: [f32; 3],
-    /// How much of the pixel it covers: less than 1 only for images narrower than a pixel.
+    /// How much of the pixel it covers: less than 1 only for images drawn by coverage.
     pub coverage: f32,
 }
 

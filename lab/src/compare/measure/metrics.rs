@@ -47,7 +47,7 @@ pub struct Group {
     pub beyond_rim: usize,
     /// Where the surface points are.
     pub displacement: Displacement,
-    /// Images narrower than a pixel: their area in pixels to the judge and to the contestant; or at how many pixels' centres they are, if
+    /// Thin images: their area in pixels to the judge and to the contestant; or at how many pixels' centres they are, if
     /// the contestant draws them by these.
     pub thin: [f64; 2],
     /// Pixels of which they cover a part to the judge.
