@@ -63,7 +63,7 @@ pub struct Stage {
 /// [`OUTLINED`], a share of the diameter, show so large images that their outlines are seen: with the same limit 6 of 160 pixels differ.
 const MOST_MOVED: f64 = 0.25;
 const MOST_MOVED_OUTLINE: f64 = 0.15;
-const OUTLINED: f64 = 0.015;
+const OUTLINED: f64 = 0.0075;
 
 /// The width in pixels up to which a stand-in that is `moved` by this share of the diameter may be shown.
 fn shown_below(moved: f64) -> f64 {
