@@ -59,17 +59,10 @@ pub struct Stage {
     animation: Option<AuroraAnimation>,
 }
 
-/// How far a stand-in may be from its model where half a pixel is allowed, in pixels: chords have the rest. Finer stand-ins than
-/// [`OUTLINED`], a share of the diameter, show so large images that their outlines are seen: with the same limit 6 of 160 pixels differ.
+/// How far a stand-in may be from its model where half a pixel is allowed, in pixels: chords have the rest.
 const MOST_MOVED: f64 = 0.25;
-const MOST_MOVED_OUTLINE: f64 = 0.15;
-const OUTLINED: f64 = 0.0075;
-
-/// The width in pixels up to which a stand-in that is `moved` by this share of the diameter may be shown.
-fn shown_below(moved: f64) -> f64 {
-    let most = if moved < OUTLINED { MOST_MOVED_OUTLINE } else { MOST_MOVED };
-    most / moved
-}
+/// Images wider than this, in pixels, show the model itself: their outlines are seen, and a quarter of a pixel there is 6 of 160 pixels.
+const OUTLINED: f64 = 30.0;
 
 /// A model, its coarsest stand-in, and all of them, the coarsest first, each up to a width in pixels where half a pixel is allowed.
 #[derive(Clone, Debug)]
@@ -134,7 +127,7 @@ impl Stage {
             let is_globe = globe.is_some_and(|(of, _)| of == number);
             let coarser = match globe {
                 Some((_, planet)) if is_globe => planet.stand_ins(model),
-                _ => stand_ins(model).into_iter().map(|coarser| (shown_below(coarser.moved), coarser.model)).collect(),
+                _ => stand_ins(model).into_iter().map(|coarser| ((MOST_MOVED / coarser.moved).min(OUTLINED), coarser.model)).collect(),
             };
             breath().await;
             models.add_images(marked(model).as_ref().unwrap_or(model));
